@@ -1,0 +1,77 @@
+#include "graph/api/context.hpp"
+
+#include <fcntl.h>
+#include <tbb/parallel_for.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "graph/api/error.hpp"
+
+namespace atrium {
+
+void Context::parallel_chunks(std::size_t total, std::size_t size,
+                              const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const {
+  if (total == 0) return;
+  const std::size_t chunk = std::max<std::size_t>(size, 1);
+  const std::size_t chunks = (total + chunk - 1) / chunk;
+  const auto one = [&](std::size_t i) {
+    check_cancelled();
+    work(i, i * chunk, std::min(total, (i + 1) * chunk));
+  };
+  if (chunks == 1) {
+    one(0);
+    return;
+  }
+  // Isolated: a thread that waits here must not pick up another node's work.
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, chunks, one); });
+}
+
+void Context::parallel_for(std::size_t total, const std::function<void(std::size_t, std::size_t)>& work,
+                           std::size_t size) const {
+  parallel_chunks(total, size, [&](std::size_t, std::size_t begin, std::size_t end) { work(begin, end); });
+}
+
+void Context::check_cancelled() const {
+  if (cancelled()) throw Cancelled();
+}
+
+std::filesystem::path Context::output(const std::string& relative) const {
+  const std::filesystem::path target = std::filesystem::absolute(host_->output_folder() / relative);
+  std::error_code error;
+  std::filesystem::create_directories(target.parent_path(), error);
+  if (error) throw Error("cannot make the folder " + target.parent_path().string() + ": " + error.message());
+  return target;
+}
+
+AtomicFile::AtomicFile(std::filesystem::path target)
+    : target_(std::move(target)),
+      temporary_(target_.parent_path() / ("." + target_.filename().string() + "." + std::to_string(::getpid()) + ".part")) {
+  file_ = std::fopen(temporary_.c_str(), "wb");
+  if (file_ == nullptr) throw Error("cannot write " + target_.string() + ": " + std::strerror(errno));
+}
+
+AtomicFile::~AtomicFile() {
+  if (file_ != nullptr) std::fclose(file_);
+  std::error_code ignored;
+  if (!done_) std::filesystem::remove(temporary_, ignored);
+}
+
+void AtomicFile::write(const void* data, std::size_t size) {
+  if (size > 0 && std::fwrite(data, 1, size, file_) != size)
+    throw Error("cannot write " + target_.string() + ": " + std::strerror(errno));
+}
+
+void AtomicFile::commit() {
+  const bool flushed = std::fflush(file_) == 0 && ::fsync(::fileno(file_)) == 0;
+  const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
+  if (!flushed || !closed) throw Error("cannot write " + target_.string() + ": " + std::strerror(errno));
+  std::error_code error;
+  std::filesystem::rename(temporary_, target_, error);
+  if (error) throw Error("cannot write " + target_.string() + ": " + error.message());
+  done_ = true;
+}
+
+}  // namespace atrium

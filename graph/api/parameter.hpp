@@ -1,0 +1,218 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace atrium {
+
+/// The unit in which a parameter is stored; pipeline files may write any unit of the same dimension ("2 cm", "20 deg").
+struct Unit {
+  std::string_view symbol;     ///< as printed: "m", "deg", "" for plain numbers
+  std::string_view dimension;  ///< "length", "angle", "area", "time", "ratio", "count", "number"
+};
+inline constexpr Unit metres{"m", "length"};
+inline constexpr Unit square_metres{"m2", "area"};
+inline constexpr Unit degrees{"deg", "angle"};
+inline constexpr Unit seconds{"s", "time"};
+inline constexpr Unit ratio{"", "ratio"};      ///< a share; "10 %" may be written
+inline constexpr Unit count{"", "count"};      ///< how many of something: points, planes, iterations
+inline constexpr Unit unitless{"", "number"};
+
+/// A file or folder that must exist before the run starts. Relative paths are relative to the file that sets them (on the
+/// command line: to the working folder); a node sees an absolute path.
+struct InputPath {
+  std::string path;
+};
+/// A file that the node writes, relative to the run's folder. Get its absolute path from Context::output.
+struct OutputPath {
+  std::string path;
+};
+
+/// A parameter's value in its declared unit.
+using ParamValue =
+    std::variant<bool, std::int64_t, double, std::string, std::vector<double>, std::vector<std::string>>;
+
+enum class ParamKind { boolean, integer, number, text, choice, input_path, output_path, numbers, texts, input_paths };
+
+/// One row of a node's parameter table, type-erased.
+struct ParamInfo {
+  std::string name;
+  ParamKind kind{};
+  Unit unit{};
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  std::size_t length = 0;  ///< exact number of values of a list; 0: any number
+  std::vector<std::string> choices;
+  std::string doc;
+  ParamValue initial;  ///< the default, read from the node's Params initialiser
+  void (*assign)(void* params, const ParamValue& value, const void* row) = nullptr;
+  const void* row = nullptr;  ///< the constexpr table row that `assign` needs
+};
+
+/// A value as written in a file or on the command line, before it is known what it must be.
+struct RawValue {
+  std::vector<std::string> items;  ///< one item for a scalar
+  bool is_list = false;
+  bool quoted = false;  ///< a quoted scalar is text, never a number
+};
+
+/// Reads a raw value as `info` wants it: decimal numbers, units of the right dimension, true/false, one of the choices,
+/// within the bounds. Throws Error whose message says what is wrong and whose help says what would be right.
+ParamValue parse_param(const ParamInfo& info, const RawValue& raw);
+
+/// The value in the canonical form that parse_param reads back to the same value ("0.02 m", "[1, 2]", "wall").
+std::string format_param(const ParamInfo& info, const ParamValue& value);
+
+/// "length, 0 m to 10 m, default 0.5 m": what a parameter accepts, for help texts.
+std::string describe_param(const ParamInfo& info);
+
+// --- The table's rows ------------------------------------------------------------------------------------------------
+
+struct Bounds {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+};
+constexpr Bounds within(double low, double high) { return {low, high}; }
+constexpr Bounds at_least(double low) { return {low, std::numeric_limits<double>::infinity()}; }
+inline constexpr Bounds unbounded{};
+
+template <class E>
+struct Choice {
+  std::string_view name;
+  E value;
+};
+
+template <class P, class T>
+struct ParamRow {
+  T P::*member;
+  std::string_view name;
+  Unit unit;
+  Bounds bounds;
+  std::string_view doc;
+};
+template <class P, class E, std::size_t N>
+struct ChoiceRow {
+  E P::*member;
+  std::string_view name;
+  Choice<E> choices[N];
+  std::string_view doc;
+};
+
+/// A number, an integer or a list of numbers (std::vector<double>, Eigen fixed vectors are not parameters) with unit and
+/// bounds (bounds hold for each item).
+template <class P, class T>
+constexpr ParamRow<P, T> param(T P::*member, std::string_view name, Unit unit, Bounds bounds, std::string_view doc) {
+  static_assert(std::is_arithmetic_v<T> || std::is_same_v<T, std::vector<double>>,
+                "a parameter with a unit is a double, an integer or a std::vector<double>");
+  return {member, name, unit, bounds, doc};
+}
+/// A bool, std::string, InputPath, OutputPath, std::vector<std::string> or std::vector<InputPath>.
+template <class P, class T>
+constexpr ParamRow<P, T> param(T P::*member, std::string_view name, std::string_view doc) {
+  static_assert(!std::is_floating_point_v<T>, "a number needs its unit and bounds: param(&Params::x, \"x\", metres, …)");
+  return {member, name, unitless, unbounded, doc};
+}
+/// One of several named values: param(&Params::method, "method", {{"knn", Method::knn}, …}, "…").
+template <class P, class E, std::size_t N>
+constexpr ChoiceRow<P, E, N> param(E P::*member, std::string_view name, const Choice<E> (&choices)[N],
+                                   std::string_view doc) {
+  ChoiceRow<P, E, N> row{member, name, {}, doc};
+  for (std::size_t i = 0; i < N; ++i) row.choices[i] = choices[i];
+  return row;
+}
+
+namespace detail {
+
+template <class T>
+ParamValue to_value(const T& v) {
+  if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string> || std::is_same_v<T, std::vector<double>> ||
+                std::is_same_v<T, std::vector<std::string>>) {
+    return v;
+  } else if constexpr (std::is_integral_v<T>) {
+    return static_cast<std::int64_t>(v);
+  } else if constexpr (std::is_floating_point_v<T>) {
+    return static_cast<double>(v);
+  } else if constexpr (std::is_same_v<T, std::vector<InputPath>>) {
+    std::vector<std::string> paths;
+    for (const auto& p : v) paths.push_back(p.path);
+    return paths;
+  } else {
+    return v.path;
+  }
+}
+
+template <class T>
+T from_value(const ParamValue& value) {
+  if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string> || std::is_same_v<T, std::vector<double>> ||
+                std::is_same_v<T, std::vector<std::string>>) {
+    return std::get<T>(value);
+  } else if constexpr (std::is_integral_v<T>) {
+    return static_cast<T>(std::get<std::int64_t>(value));
+  } else if constexpr (std::is_floating_point_v<T>) {
+    return static_cast<T>(std::get<double>(value));
+  } else if constexpr (std::is_same_v<T, std::vector<InputPath>>) {
+    std::vector<InputPath> paths;
+    for (const auto& p : std::get<std::vector<std::string>>(value)) paths.push_back({p});
+    return paths;
+  } else {
+    return T{std::get<std::string>(value)};
+  }
+}
+
+template <class T>
+constexpr ParamKind kind_of() {
+  if constexpr (std::is_same_v<T, bool>) return ParamKind::boolean;
+  else if constexpr (std::is_integral_v<T>) return ParamKind::integer;
+  else if constexpr (std::is_floating_point_v<T>) return ParamKind::number;
+  else if constexpr (std::is_same_v<T, std::string>) return ParamKind::text;
+  else if constexpr (std::is_same_v<T, InputPath>) return ParamKind::input_path;
+  else if constexpr (std::is_same_v<T, OutputPath>) return ParamKind::output_path;
+  else if constexpr (std::is_same_v<T, std::vector<double>>) return ParamKind::numbers;
+  else if constexpr (std::is_same_v<T, std::vector<std::string>>) return ParamKind::texts;
+  else if constexpr (std::is_same_v<T, std::vector<InputPath>>) return ParamKind::input_paths;
+}
+
+template <class P, class T>
+ParamInfo erase(const ParamRow<P, T>& row, const P& defaults) {
+  ParamInfo info;
+  info.name = row.name;
+  info.kind = kind_of<T>();
+  info.unit = row.unit;
+  info.min = row.bounds.min;
+  info.max = row.bounds.max;
+  info.doc = row.doc;
+  info.initial = to_value(defaults.*row.member);
+  if constexpr (std::is_same_v<T, std::vector<double>>) info.length = (defaults.*row.member).size();
+  info.row = &row;
+  info.assign = [](void* params, const ParamValue& value, const void* r) {
+    static_cast<P*>(params)->*static_cast<const ParamRow<P, T>*>(r)->member = from_value<T>(value);
+  };
+  return info;
+}
+
+template <class P, class E, std::size_t N>
+ParamInfo erase(const ChoiceRow<P, E, N>& row, const P& defaults) {
+  ParamInfo info;
+  info.name = row.name;
+  info.kind = ParamKind::choice;
+  info.doc = row.doc;
+  for (const auto& choice : row.choices) {
+    info.choices.emplace_back(choice.name);
+    if (choice.value == defaults.*row.member) info.initial = std::string(choice.name);
+  }
+  info.row = &row;
+  info.assign = [](void* params, const ParamValue& value, const void* r) {
+    const auto* table = static_cast<const ChoiceRow<P, E, N>*>(r);
+    for (const auto& choice : table->choices)
+      if (choice.name == std::get<std::string>(value)) static_cast<P*>(params)->*table->member = choice.value;
+  };
+  return info;
+}
+
+}  // namespace detail
+}  // namespace atrium

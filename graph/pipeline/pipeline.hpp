@@ -1,0 +1,70 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "graph/api/node.hpp"
+
+namespace atrium {
+
+/// Where an edge comes from.
+struct Edge {
+  std::size_t node = 0;    ///< index into Pipeline::nodes
+  std::size_t output = 0;  ///< index into that node type's outputs
+};
+
+/// One node of a pipeline, sub-pipelines opened up.
+struct PipelineNode {
+  std::string path;                        ///< its address: "planes", "shell/translate"
+  const NodeType* type = nullptr;          ///< owned by the Registry
+  std::vector<ParamValue> params;          ///< one per parameter of the type, defaults filled in, paths absolute
+  std::vector<std::vector<Edge>> inputs;   ///< one list per input port: 0, 1 or many edges
+};
+
+struct PipelineOutput {
+  std::string name;
+  Edge from;
+};
+
+/// A pipeline that has passed every check: nodes are in an order in which they can run (Boost.Graph's topological sort, ties
+/// by the order of the file), every edge joins equal port types, every parameter is in its bounds, every input file exists.
+struct Pipeline {
+  std::string summary;
+  std::uint64_t seed = 1;
+  std::filesystem::path file;
+  std::vector<PipelineNode> nodes;
+  std::vector<PipelineOutput> outputs;
+};
+
+/// One finding, as a compiler prints it.
+struct Diagnostic {
+  std::string file;
+  int line = 0, column = 0;  ///< from 1; 0: no place (printed without)
+  std::string message, help;
+  std::vector<std::string> notes;  ///< "set by sweep.yaml:6:9"
+};
+std::string to_string(const Diagnostic& diagnostic);
+
+/// One `-s` of the command line: NODE.PARAM=VALUE, NODE.type=TYPE or VARIABLE=VALUE.
+struct Override {
+  std::string text;    ///< as given, without -s
+  std::string origin;  ///< what notes name: "-s planes.distance=1cm"
+};
+
+struct LoadResult {
+  Pipeline pipeline;                    ///< valid only when errors is empty
+  std::vector<Diagnostic> errors;       ///< all of them, in the order of the file
+  std::vector<Diagnostic> warnings;
+};
+
+class Registry;
+
+/// Reads and checks a pipeline file: everything before anything runs.
+LoadResult load_pipeline(const std::filesystem::path& file, const std::vector<Override>& overrides, Registry& registry);
+
+/// The pipeline as a file that gives the same bytes when it is run: every default, the seed, absolute paths, no variables,
+/// no sub-pipelines (ids with '/' stay addresses).
+std::string resolved_yaml(const Pipeline& pipeline);
+
+}  // namespace atrium

@@ -1,0 +1,41 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "graph/api/node.hpp"
+
+namespace atrium {
+
+/// The node types that can be had: plugins libatrium_<module>.so in the folders of ATRIUM_PLUGIN_PATH (':'-separated, first
+/// wins), then beside the program (../lib/atrium). A plugin is loaded when a type of its module is first asked for, checked
+/// by its stamp, and never unloaded.
+class Registry {
+ public:
+  Registry();
+  ~Registry();
+
+  /// The node type, or null when its plugin is there but does not have it, or no plugin of that module is there. Throws
+  /// PluginError when the plugin cannot be loaded or was built for another framework, compiler or Eigen alignment.
+  const NodeType* find(const std::string& type);
+  /// Loads every plugin that can be found; all types by name.
+  std::vector<const NodeType*> all();
+  /// Adds a type that is in the program itself (tests).
+  void add(NodeType type);
+  /// Names of all modules whose plugin files exist, loaded or not.
+  std::vector<std::string> modules() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A plugin that is there but cannot be used (exit code 5).
+class PluginError : public Error {
+ public:
+  using Error::Error;
+};
+
+}  // namespace atrium
