@@ -48,7 +48,8 @@ std::filesystem::path Context::output(const std::string& relative) const {
 
 AtomicFile::AtomicFile(std::filesystem::path target)
     : target_(std::move(target)),
-      temporary_(target_.parent_path() / ("." + target_.filename().string() + "." + std::to_string(::getpid()) + ".part")) {
+      temporary_(target_.parent_path() /
+                 ("." + target_.filename().string() + "." + std::to_string(::getpid()) + ".part")) {
   file_ = std::fopen(temporary_.c_str(), "wb");
   if (file_ == nullptr) throw Error("cannot write " + target_.string() + ": " + std::strerror(errno));
 }

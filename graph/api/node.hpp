@@ -22,16 +22,16 @@ namespace atrium {
 ///     struct In { Input<PlaneMeshes> meshes; Input<Adjacency> adjacency; };
 ///     struct Out { PlaneMeshes meshes; };
 ///     struct Params { double max_separation = 0.5; };
-///     static constexpr auto inputs = std::tuple{port(&In::meshes, "meshes", "…"), port(&In::adjacency, "adjacency", "…")};
-///     static constexpr auto outputs = std::tuple{port(&Out::meshes, "meshes", "…")};
-///     static constexpr auto params = std::tuple{
+///     static constexpr auto inputs = std::tuple{port(&In::meshes, "meshes", "…"), port(&In::adjacency, "adjacency",
+///     "…")}; static constexpr auto outputs = std::tuple{port(&Out::meshes, "meshes", "…")}; static constexpr auto
+///     params = std::tuple{
 ///         param(&Params::max_separation, "max_separation", metres, within(0, 10), "… (the paper's th_sep).")};
 ///     static Out run(const In& in, const Params& params, Context& context);
 ///   };
 ///
 /// A field that no table lists does not compile. Optional: `static constexpr int version` (raise it when the results
-/// change), `static constexpr bool sink = true` (runs although nothing reads its outputs; nodes without outputs and nodes
-/// with an OutputPath are sinks anyway).
+/// change), `static constexpr bool sink = true` (runs although nothing reads its outputs; nodes without outputs and
+/// nodes with an OutputPath are sinks anyway).
 
 /// A required input: never null in run().
 template <class T>
@@ -41,7 +41,8 @@ template <class T>
 struct OptionalInput : std::shared_ptr<const T> {
   using std::shared_ptr<const T>::shared_ptr;
   OptionalInput() = default;
-  OptionalInput(std::shared_ptr<const T> p) : std::shared_ptr<const T>(std::move(p)) {}  // NOLINT(google-explicit-constructor)
+  OptionalInput(std::shared_ptr<const T> p)
+      : std::shared_ptr<const T>(std::move(p)) {}  // NOLINT(google-explicit-constructor)
 };
 /// A port that takes a list of edges (`in: {clouds: [a.cloud, b.cloud]}`), in the order of the file; at least one.
 template <class T>
@@ -79,8 +80,8 @@ struct NodeType {
   std::vector<PortInfo> inputs, outputs;
   std::vector<ParamInfo> params;
   /// inputs[i] belongs to port i and holds 0, 1 or many values; params[i] to parameter i. Returns one value per output.
-  std::function<std::vector<Value>(const std::vector<std::vector<Value>>& inputs,
-                                   const std::vector<ParamValue>& params, Context& context)>
+  std::function<std::vector<Value>(const std::vector<std::vector<Value>>& inputs, const std::vector<ParamValue>& params,
+                                   Context& context)>
       run;
 };
 
@@ -92,8 +93,10 @@ struct Any {
 };
 template <class T, class... A>
 constexpr std::size_t field_count() {
-  if constexpr (requires { T{A{}..., Any{}}; }) return field_count<T, A..., Any>();
-  else return sizeof...(A);
+  if constexpr (requires { T{A{}..., Any{}}; })
+    return field_count<T, A..., Any>();
+  else
+    return sizeof...(A);
 }
 
 template <class T>
@@ -151,8 +154,7 @@ std::vector<Value> run_node(const std::vector<std::vector<Value>>& inputs, const
   std::vector<Value> result;
   std::apply(
       [&](const auto&... row) {
-        (result.push_back(
-             OutputKind<std::remove_cvref_t<decltype(out.*row.member)>>::make(std::move(out.*row.member))),
+        (result.push_back(OutputKind<std::remove_cvref_t<decltype(out.*row.member)>>::make(std::move(out.*row.member))),
          ...);
       },
       N::outputs);
@@ -176,8 +178,8 @@ NodeType describe_node() {
   if constexpr (requires { N::version; }) node.version = N::version;
   const auto add_input = [&]<class S, class T>(const PortRow<S, T>& row) {
     using Kind = detail::InputKind<T>;
-    node.inputs.push_back({std::string(row.name), std::string(PortType<typename Kind::Type>::name), std::string(row.doc),
-                           Kind::optional, Kind::repeated});
+    node.inputs.push_back({std::string(row.name), std::string(PortType<typename Kind::Type>::name),
+                           std::string(row.doc), Kind::optional, Kind::repeated});
   };
   const auto add_output = [&]<class S, class T>(const PortRow<S, T>& row) {
     node.outputs.push_back({std::string(row.name), std::string(PortType<typename detail::OutputKind<T>::Type>::name),
@@ -191,9 +193,7 @@ NodeType describe_node() {
   if constexpr (requires { N::sink; }) node.sink = node.sink || N::sink;
   for (const auto& p : node.params) node.sink = node.sink || p.kind == ParamKind::output_path;
   node.run = [infos = node.params](const std::vector<std::vector<Value>>& inputs, const std::vector<ParamValue>& values,
-                                   Context& context) {
-    return detail::run_node<N>(inputs, values, infos, context);
-  };
+                                   Context& context) { return detail::run_node<N>(inputs, values, infos, context); };
   return node;
 }
 

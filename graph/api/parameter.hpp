@@ -19,12 +19,12 @@ inline constexpr Unit metres{"m", "length"};
 inline constexpr Unit square_metres{"m2", "area"};
 inline constexpr Unit degrees{"deg", "angle"};
 inline constexpr Unit seconds{"s", "time"};
-inline constexpr Unit ratio{"", "ratio"};      ///< a share; "10 %" may be written
-inline constexpr Unit count{"", "count"};      ///< how many of something: points, planes, iterations
+inline constexpr Unit ratio{"", "ratio"};  ///< a share; "10 %" may be written
+inline constexpr Unit count{"", "count"};  ///< how many of something: points, planes, iterations
 inline constexpr Unit unitless{"", "number"};
 
-/// A file or folder that must exist before the run starts. Relative paths are relative to the file that sets them (on the
-/// command line: to the working folder); a node sees an absolute path.
+/// A file or folder that must exist before the run starts. Relative paths are relative to the file that sets them (on
+/// the command line: to the working folder); a node sees an absolute path.
 struct InputPath {
   std::string path;
 };
@@ -34,8 +34,7 @@ struct OutputPath {
 };
 
 /// A parameter's value in its declared unit.
-using ParamValue =
-    std::variant<bool, std::int64_t, double, std::string, std::vector<double>, std::vector<std::string>>;
+using ParamValue = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, std::vector<std::string>>;
 
 enum class ParamKind { boolean, integer, number, text, choice, input_path, output_path, numbers, texts, input_paths };
 
@@ -103,8 +102,8 @@ struct ChoiceRow {
   std::string_view doc;
 };
 
-/// A number, an integer or a list of numbers (std::vector<double>, Eigen fixed vectors are not parameters) with unit and
-/// bounds (bounds hold for each item).
+/// A number, an integer or a list of numbers (std::vector<double>, Eigen fixed vectors are not parameters) with unit
+/// and bounds (bounds hold for each item).
 template <class P, class T>
 constexpr ParamRow<P, T> param(T P::*member, std::string_view name, Unit unit, Bounds bounds, std::string_view doc) {
   static_assert(std::is_arithmetic_v<T> || std::is_same_v<T, std::vector<double>>,
@@ -114,7 +113,8 @@ constexpr ParamRow<P, T> param(T P::*member, std::string_view name, Unit unit, B
 /// A bool, std::string, InputPath, OutputPath, std::vector<std::string> or std::vector<InputPath>.
 template <class P, class T>
 constexpr ParamRow<P, T> param(T P::*member, std::string_view name, std::string_view doc) {
-  static_assert(!std::is_floating_point_v<T>, "a number needs its unit and bounds: param(&Params::x, \"x\", metres, …)");
+  static_assert(!std::is_floating_point_v<T>,
+                "a number needs its unit and bounds: param(&Params::x, \"x\", metres, …)");
   return {member, name, unitless, unbounded, doc};
 }
 /// One of several named values: param(&Params::method, "method", {{"knn", Method::knn}, …}, "…").
@@ -166,15 +166,24 @@ T from_value(const ParamValue& value) {
 
 template <class T>
 constexpr ParamKind kind_of() {
-  if constexpr (std::is_same_v<T, bool>) return ParamKind::boolean;
-  else if constexpr (std::is_integral_v<T>) return ParamKind::integer;
-  else if constexpr (std::is_floating_point_v<T>) return ParamKind::number;
-  else if constexpr (std::is_same_v<T, std::string>) return ParamKind::text;
-  else if constexpr (std::is_same_v<T, InputPath>) return ParamKind::input_path;
-  else if constexpr (std::is_same_v<T, OutputPath>) return ParamKind::output_path;
-  else if constexpr (std::is_same_v<T, std::vector<double>>) return ParamKind::numbers;
-  else if constexpr (std::is_same_v<T, std::vector<std::string>>) return ParamKind::texts;
-  else if constexpr (std::is_same_v<T, std::vector<InputPath>>) return ParamKind::input_paths;
+  if constexpr (std::is_same_v<T, bool>)
+    return ParamKind::boolean;
+  else if constexpr (std::is_integral_v<T>)
+    return ParamKind::integer;
+  else if constexpr (std::is_floating_point_v<T>)
+    return ParamKind::number;
+  else if constexpr (std::is_same_v<T, std::string>)
+    return ParamKind::text;
+  else if constexpr (std::is_same_v<T, InputPath>)
+    return ParamKind::input_path;
+  else if constexpr (std::is_same_v<T, OutputPath>)
+    return ParamKind::output_path;
+  else if constexpr (std::is_same_v<T, std::vector<double>>)
+    return ParamKind::numbers;
+  else if constexpr (std::is_same_v<T, std::vector<std::string>>)
+    return ParamKind::texts;
+  else if constexpr (std::is_same_v<T, std::vector<InputPath>>)
+    return ParamKind::input_paths;
 }
 
 template <class P, class T>

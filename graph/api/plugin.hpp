@@ -13,13 +13,10 @@
   "atrium " ATRIUM_INTERFACE "; " __VERSION__ "; Eigen alignment " ATRIUM_STRINGIFY(EIGEN_MAX_STATIC_ALIGN_BYTES)
 
 /// Used once per plugin, in the file that atrium_add_plugin() generates.
-#define ATRIUM_PLUGIN(...)                                                                        \
-  extern "C" __attribute__((visibility("default"))) const char* atrium_plugin_stamp() {           \
-    return ATRIUM_STAMP;                                                                          \
-  }                                                                                               \
-  extern "C" __attribute__((visibility("default"))) void atrium_plugin_nodes(                     \
-      std::vector<atrium::NodeType>& nodes) {                                                     \
-    ::atrium::detail::add_nodes<__VA_ARGS__>(nodes);                                              \
+#define ATRIUM_PLUGIN(...)                                                                                           \
+  extern "C" __attribute__((visibility("default"))) const char* atrium_plugin_stamp() { return ATRIUM_STAMP; }       \
+  extern "C" __attribute__((visibility("default"))) void atrium_plugin_nodes(std::vector<atrium::NodeType>& nodes) { \
+    ::atrium::detail::add_nodes<__VA_ARGS__>(nodes);                                                                 \
   }
 
 namespace atrium::detail {

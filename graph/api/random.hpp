@@ -6,8 +6,9 @@
 
 namespace atrium {
 
-/// A seeded random stream with the same numbers on every platform (the distributions of <random> differ between standard
-/// libraries, so they are written out here). Not safe to share between threads: give each chunk of work its own stream.
+/// A seeded random stream with the same numbers on every platform (the distributions of <random> differ between
+/// standard libraries, so they are written out here). Not safe to share between threads: give each chunk of work its
+/// own stream.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}

@@ -64,7 +64,9 @@ class ContentHash {
 namespace detail {
 
 template <class T>
-concept HasMembers = requires { T::members(); };
+concept HasMembers = requires {
+  T::members();
+};
 template <class T>
 concept EigenFixed = requires(const T& m) {
   T::SizeAtCompileTime;
@@ -81,13 +83,17 @@ template <class T>
 concept PointerLike = requires(const T& p) {
   static_cast<bool>(p);
   *p;
-} && !std::is_arithmetic_v<T>;
+}
+&&!std::is_arithmetic_v<T>;
 /// May be hashed as one block of memory: no padding, no pointers.
 template <class T>
 constexpr bool is_flat() {
-  if constexpr (std::is_enum_v<T> || (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>)) return true;
-  else if constexpr (EigenFixed<T>) return true;
-  else return false;
+  if constexpr (std::is_enum_v<T> || (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>))
+    return true;
+  else if constexpr (EigenFixed<T>)
+    return true;
+  else
+    return false;
 }
 template <class T>
 struct IsFlatArray : std::false_type {};
@@ -130,7 +136,9 @@ struct HashSink {
   ContentHash hash;
   void operator()(const void* data, std::size_t size) { hash.bytes(data, size); }
   template <class F>
-  void nested(F f) { f(); }
+  void nested(F f) {
+    f();
+  }
 };
 struct SizeSink {
   std::size_t size = 0;

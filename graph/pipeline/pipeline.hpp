@@ -16,10 +16,10 @@ struct Edge {
 
 /// One node of a pipeline, sub-pipelines opened up.
 struct PipelineNode {
-  std::string path;                        ///< its address: "planes", "shell/translate"
-  const NodeType* type = nullptr;          ///< owned by the Registry
-  std::vector<ParamValue> params;          ///< one per parameter of the type, defaults filled in, paths absolute
-  std::vector<std::vector<Edge>> inputs;   ///< one list per input port: 0, 1 or many edges
+  std::string path;                       ///< its address: "planes", "shell/translate"
+  const NodeType* type = nullptr;         ///< owned by the Registry
+  std::vector<ParamValue> params;         ///< one per parameter of the type, defaults filled in, paths absolute
+  std::vector<std::vector<Edge>> inputs;  ///< one list per input port: 0, 1 or many edges
 };
 
 struct PipelineOutput {
@@ -27,8 +27,9 @@ struct PipelineOutput {
   Edge from;
 };
 
-/// A pipeline that has passed every check: nodes are in an order in which they can run (Boost.Graph's topological sort, ties
-/// by the order of the file), every edge joins equal port types, every parameter is in its bounds, every input file exists.
+/// A pipeline that has passed every check: nodes are in an order in which they can run (Boost.Graph's topological sort,
+/// ties by the order of the file), every edge joins equal port types, every parameter is in its bounds, every input
+/// file exists.
 struct Pipeline {
   std::string summary;
   std::uint64_t seed = 1;
@@ -53,8 +54,8 @@ struct Override {
 };
 
 struct LoadResult {
-  Pipeline pipeline;                    ///< valid only when errors is empty
-  std::vector<Diagnostic> errors;       ///< all of them, in the order of the file
+  Pipeline pipeline;               ///< valid only when errors is empty
+  std::vector<Diagnostic> errors;  ///< all of them, in the order of the file
   std::vector<Diagnostic> warnings;
 };
 
@@ -63,8 +64,8 @@ class Registry;
 /// Reads and checks a pipeline file: everything before anything runs.
 LoadResult load_pipeline(const std::filesystem::path& file, const std::vector<Override>& overrides, Registry& registry);
 
-/// The pipeline as a file that gives the same bytes when it is run: every default, the seed, absolute paths, no variables,
-/// no sub-pipelines (ids with '/' stay addresses).
+/// The pipeline as a file that gives the same bytes when it is run: every default, the seed, absolute paths, no
+/// variables, no sub-pipelines (ids with '/' stay addresses).
 std::string resolved_yaml(const Pipeline& pipeline);
 
 }  // namespace atrium

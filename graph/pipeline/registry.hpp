@@ -9,9 +9,9 @@
 
 namespace atrium {
 
-/// The node types that can be had: plugins libatrium_<module>.so in the folders of ATRIUM_PLUGIN_PATH (':'-separated, first
-/// wins), then beside the program (../lib/atrium). A plugin is loaded when a type of its module is first asked for, checked
-/// by its stamp, and never unloaded.
+/// The node types that can be had: plugins libatrium_<module>.so in the folders of ATRIUM_PLUGIN_PATH (':'-separated,
+/// first wins), then beside the program (../lib/atrium). A plugin is loaded when a type of its module is first asked
+/// for, checked by its stamp, and never unloaded.
 class Registry {
  public:
   Registry();

@@ -37,8 +37,8 @@ class ProgressSink {
   virtual void message(const std::string& /*node*/, std::string_view /*text*/, bool /*warning*/) {}
 };
 
-/// Runs a checked pipeline: independent nodes side by side on one oneTBB arena, a value freed as soon as its last reader is
-/// done. Writes resolved.yaml, manifest.json and trace.json into the run's folder (also when a node fails).
+/// Runs a checked pipeline: independent nodes side by side on one oneTBB arena, a value freed as soon as its last
+/// reader is done. Writes resolved.yaml, manifest.json and trace.json into the run's folder (also when a node fails).
 RunResult run_pipeline(const Pipeline& pipeline, const RunOptions& options, ProgressSink& progress);
 
 }  // namespace atrium

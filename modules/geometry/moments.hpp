@@ -6,8 +6,8 @@
 
 namespace atrium {
 
-/// Count, first and second moments of points, in double about a reference point that the caller chooses near them. Adding
-/// is exact enough to fit planes over 10⁸ points when the reference is within some metres.
+/// Count, first and second moments of points, in double about a reference point that the caller chooses near them.
+/// Adding is exact enough to fit planes over 10⁸ points when the reference is within some metres.
 struct Moments {
   std::uint64_t count = 0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

@@ -11,8 +11,8 @@ struct AdjacencyEdge {
   double separation = 0;  ///< least distance between the two polygons, metres
 };
 
-/// The paper's G = (V, E): vertex i is meshes[i] of the PlaneMeshes that it was made from; an edge joins two meshes that
-/// are nearer to each other than th_sep.
+/// The paper's G = (V, E): vertex i is meshes[i] of the PlaneMeshes that it was made from; an edge joins two meshes
+/// that are nearer to each other than th_sep.
 struct Adjacency {
   static constexpr std::string_view port_type = "Adjacency";
   using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, boost::no_property, AdjacencyEdge>;

@@ -11,13 +11,13 @@ namespace atrium {
 
 using Colour = std::array<std::uint8_t, 3>;  ///< red, green, blue
 
-/// A point cloud as columns: a column is either empty or as long as `points`. Metres. A point's place in the cloud's frame
-/// is origin + point: the float columns stay near zero, so that georeferenced clouds keep their millimetres. All
+/// A point cloud as columns: a column is either empty or as long as `points`. Metres. A point's place in the cloud's
+/// frame is origin + point: the float columns stay near zero, so that georeferenced clouds keep their millimetres. All
 /// coordinates and normals are finite (readers drop what is not, and say so).
 struct Cloud {
   static constexpr std::string_view port_type = "Cloud";
   static constexpr auto members() {
-    return std::tuple{&Cloud::origin,  &Cloud::points,      &Cloud::normals, &Cloud::colours,
+    return std::tuple{&Cloud::origin, &Cloud::points,      &Cloud::normals, &Cloud::colours,
                       &Cloud::labels, &Cloud::intensities, &Cloud::source,  &Cloud::sensors};
   }
 

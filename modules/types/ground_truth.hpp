@@ -14,13 +14,13 @@ namespace atrium {
 /// One true surface of a simulated building: an outer ring and holes (openings), all in one plane.
 struct TrueFace {
   static constexpr auto members() {
-    return std::tuple{&TrueFace::surface, &TrueFace::storey, &TrueFace::room, &TrueFace::plane, &TrueFace::outline,
-                      &TrueFace::holes};
+    return std::tuple{&TrueFace::surface, &TrueFace::storey,  &TrueFace::room,
+                      &TrueFace::plane,   &TrueFace::outline, &TrueFace::holes};
   }
   SurfaceClass surface = SurfaceClass::wall;
   std::int32_t storey = 0;
-  std::int32_t room = -1;  ///< the room that sees it
-  Plane plane;             ///< normal into the room
+  std::int32_t room = -1;                           ///< the room that sees it
+  Plane plane;                                      ///< normal into the room
   std::vector<Eigen::Vector3d> outline;             ///< counter-clockwise seen from the room
   std::vector<std::vector<Eigen::Vector3d>> holes;  ///< clockwise seen from the room
 };

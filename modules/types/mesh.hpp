@@ -22,11 +22,11 @@ struct Mesh {
   }
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> vertices;
-  std::vector<Colour> colours;                             ///< per vertex
-  std::vector<std::array<std::uint32_t, 3>> triangles;     ///< counter-clockwise seen from the room
-  std::vector<SurfaceClass> classes;                       ///< per triangle
-  std::vector<std::int32_t> storeys;                       ///< per triangle; -1: none
-  std::vector<std::int32_t> primitives;                    ///< per triangle; source primitive, -1: none
+  std::vector<Colour> colours;                          ///< per vertex
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the room
+  std::vector<SurfaceClass> classes;                    ///< per triangle
+  std::vector<std::int32_t> storeys;                    ///< per triangle; -1: none
+  std::vector<std::int32_t> primitives;                 ///< per triangle; source primitive, -1: none
 };
 
 Mesh transformed(const Mesh& mesh, const Transform& transform);
