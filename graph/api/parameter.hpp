@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -64,11 +65,15 @@ struct RawValue {
 /// within the bounds. Throws Error whose message says what is wrong and whose help says what would be right.
 ParamValue parse_param(const ParamInfo& info, const RawValue& raw);
 
-/// The value in the canonical form that parse_param reads back to the same value ("0.02 m", "[1, 2]", "wall").
+/// The value in the canonical form that, as YAML, parse_param reads back to the same value ("0.02 m", "[1, 2]", "wall";
+/// text that would be something else in YAML stands in double quotes).
 std::string format_param(const ParamInfo& info, const ParamValue& value);
 
 /// "length, 0 m to 10 m, default 0.5 m": what a parameter accepts, for help texts.
 std::string describe_param(const ParamInfo& info);
+
+/// A path whose default is empty must be set.
+bool is_required(const ParamInfo& info);
 
 // --- The table's rows ------------------------------------------------------------------------------------------------
 
@@ -196,6 +201,10 @@ ParamInfo erase(const ParamRow<P, T>& row, const P& defaults) {
   info.max = row.bounds.max;
   info.doc = row.doc;
   info.initial = to_value(defaults.*row.member);
+  if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+    info.min = std::max(info.min, static_cast<double>(std::numeric_limits<T>::min()));
+    info.max = std::min(info.max, static_cast<double>(std::numeric_limits<T>::max()));
+  }
   if constexpr (std::is_same_v<T, std::vector<double>>) info.length = (defaults.*row.member).size();
   info.row = &row;
   info.assign = [](void* params, const ParamValue& value, const void* r) {

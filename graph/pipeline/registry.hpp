@@ -20,8 +20,9 @@ class Registry {
   /// The node type, or null when its plugin is there but does not have it, or no plugin of that module is there. Throws
   /// PluginError when the plugin cannot be loaded or was built for another framework, compiler or Eigen alignment.
   const NodeType* find(const std::string& type);
-  /// Loads every plugin that can be found; all types by name.
-  std::vector<const NodeType*> all();
+  /// Loads every plugin that can be found; all types by name. What plugins cannot be loaded goes into `problems`, or is
+  /// thrown when there is none.
+  std::vector<const NodeType*> all(std::vector<std::string>* problems = nullptr);
   /// Adds a type that is in the program itself (tests).
   void add(NodeType type);
   /// Names of all modules whose plugin files exist, loaded or not.

@@ -1,0 +1,16 @@
+#pragma once
+#include <CLI/CLI.hpp>
+
+namespace atrium::cli {
+
+/// What the program returns.
+enum Exit : int { ok = 0, failed = 1, usage = 2, invalid = 3, some_failed = 4, plugin = 5 };
+
+/// Each verb stands in its own file and adds its subcommand here: options, help, and a callback that does the work and
+/// leaves the exit code. stdout carries results only. Error and PluginError may be thrown: main prints them.
+void add_check(CLI::App& app, int& exit_code);
+void add_nodes(CLI::App& app, int& exit_code);
+void add_graph(CLI::App& app, int& exit_code);
+void add_schema(CLI::App& app, int& exit_code);
+
+}  // namespace atrium::cli
