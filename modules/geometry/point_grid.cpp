@@ -1,0 +1,220 @@
+#include "modules/geometry/point_grid.hpp"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "graph/api/error.hpp"
+#include "modules/geometry/radix_sort.hpp"
+
+namespace atrium {
+namespace {
+
+constexpr std::int64_t max_extent = std::int64_t{1} << 20U;
+constexpr std::size_t chunk_size = std::size_t{1} << 16U;
+constexpr std::uint64_t outside_key = ~std::uint64_t{0};
+
+struct Box {
+  Eigen::Vector3f low = Eigen::Vector3f::Constant(std::numeric_limits<float>::infinity());
+  Eigen::Vector3f high = -low;
+};
+
+Box bounds(const std::vector<Eigen::Vector3f>& points, const Context& context) {
+  std::vector<Box> boxes((points.size() + chunk_size - 1) / chunk_size);
+  context.parallel_chunks(points.size(), chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    Box box;
+    for (std::size_t i = begin; i < end; ++i) {
+      box.low = box.low.cwiseMin(points[i]);
+      box.high = box.high.cwiseMax(points[i]);
+    }
+    boxes[chunk] = box;
+  });
+  Box all;
+  for (const Box& box : boxes) {
+    all.low = all.low.cwiseMin(box.low);
+    all.high = all.high.cwiseMax(box.high);
+  }
+  return all;
+}
+
+double median(const std::vector<Eigen::Vector3f>& points, Eigen::Index axis) {
+  std::vector<float> values;
+  values.reserve(points.size());
+  for (const auto& p : points) values.push_back(p[axis]);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Tables that give each coordinate's bits their places in a Morton key that leaves out the bits no coordinate has.
+unsigned spread_tables(const std::array<std::int32_t, 3>& extent, std::array<std::vector<std::uint64_t>, 3>& tables) {
+  std::array<unsigned, 3> bits{};
+  for (std::size_t axis = 0; axis < 3; ++axis)  // two bits at least: blocks are 4 × 4 × 4
+    bits[axis] = std::max(2U, static_cast<unsigned>(std::bit_width(static_cast<std::uint32_t>(extent[axis] - 1))));
+  unsigned next = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) tables[axis].assign(static_cast<std::size_t>(extent[axis]), 0);
+  for (unsigned bit = 0; bit < 21; ++bit)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (bit >= bits[axis]) continue;
+      for (std::size_t i = 0; i < tables[axis].size(); ++i)
+        tables[axis][i] |= static_cast<std::uint64_t>((i >> bit) & 1U) << next;
+      ++next;
+    }
+  return next;
+}
+
+}  // namespace
+
+PointGrid::PointGrid(const std::vector<Eigen::Vector3f>& points, double cell_size, const Context& context)
+    : cell_size_(cell_size), inverse_(1.0 / cell_size) {
+  if (!(cell_size > 0) || !std::isfinite(inverse_) || !std::isfinite(cell_size))
+    throw Error("a grid of cells of " + std::to_string(cell_size) + " m", "the cell size must be above 0");
+  if (points.size() >= none) throw Error("too many points for a grid: " + std::to_string(points.size()));
+  if (points.empty()) return;
+  span(points, context);
+  std::vector<std::uint64_t> sorted_keys;
+  sort(keys(points, context), sorted_keys, context);
+  points_.resize(points.size());
+  context.parallel_for(
+      points.size(),
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) points_[i] = points[order_[i]];
+      },
+      chunk_size);
+  make_cells(sorted_keys, context);
+}
+
+void PointGrid::span(const std::vector<Eigen::Vector3f>& points, const Context& context) {
+  const Box box = bounds(points, context);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    double low = std::floor(static_cast<double>(box.low[axis]) * inverse_);
+    double high = std::floor(static_cast<double>(box.high[axis]) * inverse_);
+    if (high - low >= static_cast<double>(max_extent)) {
+      const double middle = std::floor(median(points, axis) * inverse_);
+      low = std::max(low, middle - static_cast<double>(max_extent / 2));
+      high = std::min(high, low + static_cast<double>(max_extent - 1));
+    }
+    base_[axis] = low;
+    extent_[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(high - low) + 1;
+  }
+  key_bits_ = spread_tables(extent_, spread_);
+}
+
+std::vector<std::uint64_t> PointGrid::keys(const std::vector<Eigen::Vector3f>& points, const Context& context) const {
+  std::vector<std::uint64_t> result(points.size());
+  context.parallel_for(
+      points.size(),
+      [&](std::size_t begin, std::size_t end) {
+        const Eigen::Vector3d limit(extent_[0], extent_[1], extent_[2]);
+        for (std::size_t i = begin; i < end; ++i) {
+          const Eigen::Vector3d at = points[i].cast<double>() * inverse_ - base_;
+          const bool in = at.x() >= 0 && at.y() >= 0 && at.z() >= 0 && at.x() < limit.x() && at.y() < limit.y() &&
+                          at.z() < limit.z();
+          result[i] = !in ? outside_key
+                          : spread_[0][static_cast<std::size_t>(at.x())] |
+                                spread_[1][static_cast<std::size_t>(at.y())] |
+                                spread_[2][static_cast<std::size_t>(at.z())];
+        }
+      },
+      chunk_size);
+  return result;
+}
+
+void PointGrid::sort(const std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& sorted_keys,
+                     const Context& context) {
+  const std::size_t total = keys.size();
+  const auto index_bits = static_cast<unsigned>(std::bit_width(total));
+  order_.resize(total);
+  sorted_keys.resize(total);
+  if (key_bits_ + 1 + index_bits <= 64) {
+    const std::uint64_t outside = std::uint64_t{1} << key_bits_;  // sorts behind all cells
+    std::vector<std::uint64_t> packed(total);
+    for (std::size_t i = 0; i < total; ++i) packed[i] = std::min(keys[i], outside) << index_bits | i;
+    radix_sort(packed, index_bits, index_bits + key_bits_ + 1, context);
+    const std::uint64_t mask = (std::uint64_t{1} << index_bits) - 1;
+    for (std::size_t i = 0; i < total; ++i) {
+      order_[i] = static_cast<std::uint32_t>(packed[i] & mask);
+      const std::uint64_t key = packed[i] >> index_bits;
+      sorted_keys[i] = key == outside ? outside_key : key;
+    }
+  } else {
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> pairs(total);
+    for (std::size_t i = 0; i < total; ++i) pairs[i] = {keys[i], static_cast<std::uint32_t>(i)};
+    tbb::parallel_sort(pairs.begin(), pairs.end());
+    for (std::size_t i = 0; i < total; ++i) std::tie(sorted_keys[i], order_[i]) = pairs[i];
+  }
+}
+
+void PointGrid::make_cells(const std::vector<std::uint64_t>& sorted_keys, const Context& context) {
+  inside_ = static_cast<std::size_t>(std::lower_bound(sorted_keys.begin(), sorted_keys.end(), outside_key) -
+                                     sorted_keys.begin());
+  std::vector<std::uint64_t> cell_keys;
+  for (std::size_t i = 0; i < inside_; ++i) {
+    if (i > 0 && sorted_keys[i] == sorted_keys[i - 1]) continue;
+    if (!cells_.empty()) cells_.back().end = static_cast<std::uint32_t>(i);
+    cells_.push_back({0, 0, 0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(inside_)});
+    cell_keys.push_back(sorted_keys[i]);
+  }
+  context.parallel_for(cells_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Vector3d at = points_[cells_[i].begin].cast<double>() * inverse_ - base_;
+      cells_[i].x = static_cast<std::int32_t>(at.x());
+      cells_[i].y = static_cast<std::int32_t>(at.y());
+      cells_[i].z = static_cast<std::int32_t>(at.z());
+    }
+  });
+  make_blocks(cell_keys);
+}
+
+std::size_t PointGrid::slot(std::uint64_t block_key) const {
+  const std::size_t mask = blocks_.size() - 1;
+  std::size_t at = static_cast<std::size_t>((block_key * 0x9e3779b97f4a7c15ULL) >> 32U) & mask;
+  while (blocks_[at].first != none && blocks_[at].key != block_key) at = (at + 1) & mask;
+  return at;
+}
+
+void PointGrid::make_blocks(const std::vector<std::uint64_t>& cell_keys) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cell_keys.size(); ++i)
+    count += i == 0 || cell_keys[i] >> 6U != cell_keys[i - 1] >> 6U ? 1 : 0;
+  blocks_.assign(std::bit_ceil(2 * count + 2), {});
+  for (std::size_t i = 0; i < cell_keys.size();) {
+    Block block{cell_keys[i] >> 6U, 0, static_cast<std::uint32_t>(i)};
+    for (; i < cell_keys.size() && cell_keys[i] >> 6U == block.key; ++i)
+      block.occupied |= std::uint64_t{1} << (cell_keys[i] & 63U);
+    blocks_[slot(block.key)] = block;
+  }
+}
+
+std::uint32_t PointGrid::find(std::int32_t x, std::int32_t y, std::int32_t z) const {
+  if (x < 0 || y < 0 || z < 0 || x >= extent_[0] || y >= extent_[1] || z >= extent_[2]) return none;
+  const std::uint64_t key = spread_[0][static_cast<std::size_t>(x)] | spread_[1][static_cast<std::size_t>(y)] |
+                            spread_[2][static_cast<std::size_t>(z)];
+  const Block& block = blocks_[slot(key >> 6U)];
+  const std::uint64_t bit = std::uint64_t{1} << (key & 63U);
+  if (block.first == none || (block.occupied & bit) == 0) return none;
+  return block.first + static_cast<std::uint32_t>(std::popcount(block.occupied & (bit - 1)));
+}
+
+std::array<std::uint32_t, 27> PointGrid::neighbourhood(const Cell& cell) const {
+  std::array<std::uint32_t, 27> result{};
+  std::size_t next = 0;
+  for (std::int32_t dz = -1; dz <= 1; ++dz)
+    for (std::int32_t dy = -1; dy <= 1; ++dy)
+      for (std::int32_t dx = -1; dx <= 1; ++dx) result[next++] = find(cell.x + dx, cell.y + dy, cell.z + dz);
+  return result;
+}
+
+std::array<std::int64_t, 3> PointGrid::place(const Eigen::Vector3d& position) const {
+  std::array<std::int64_t, 3> result{};
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double at = std::floor(position[axis] * inverse_ - base_[axis]);
+    result[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(std::clamp(at, -1e15, 1e15));
+  }
+  return result;
+}
+
+}  // namespace atrium

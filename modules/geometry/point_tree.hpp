@@ -1,0 +1,67 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "graph/api/context.hpp"
+
+namespace atrium {
+
+/// A point found by a PointTree: its index in the cloud and the square of its distance, metres².
+struct Neighbour {
+  std::uint32_t index;
+  float squared_distance;
+  friend bool operator<(const Neighbour& a, const Neighbour& b) {
+    return a.squared_distance != b.squared_distance ? a.squared_distance < b.squared_distance : a.index < b.index;
+  }
+  friend bool operator==(const Neighbour&, const Neighbour&) = default;
+};
+
+/// Nearest neighbours of any position in a cloud of any density: a packed R-tree (Kamel & Faloutsos, "On packing
+/// R-trees", 1993) of eight-fold nodes over the points in Morton order. Clusters, duplicates by the thousand and wild
+/// outliers cost no more than their share. Equal distances go by index, so answers never depend on threads. Queries are
+/// const and may run side by side; they are fastest in the order of order(), where one finds what the one before has
+/// brought near.
+class PointTree {
+ public:
+  static constexpr float everywhere = std::numeric_limits<float>::infinity();
+
+  PointTree() = default;
+  /// Fewer than 2³² - 1 finite points (throws Error otherwise); none is allowed: nothing is found then. Keeps a copy.
+  PointTree(const std::vector<Eigen::Vector3f>& points, const Context& context);
+
+  std::size_t size() const { return order_.size(); }
+  /// The indices of the points along the Morton curve.
+  const std::vector<std::uint32_t>& order() const { return order_; }
+
+  /// The nearest point at a distance of at most max_distance (metres). Returns false where there is none.
+  bool nearest(const Eigen::Vector3f& position, Neighbour& result, float max_distance = everywhere) const;
+  /// The k nearest points within max_distance, by (distance, index). A point of the cloud finds itself, at 0.
+  void k_nearest(const Eigen::Vector3f& position, std::size_t k, std::vector<Neighbour>& result,
+                 float max_distance = everywhere) const;
+  /// All points within max_distance, in no particular (but always the same) order.
+  void within(const Eigen::Vector3f& position, float max_distance, std::vector<Neighbour>& result) const;
+
+  static constexpr std::size_t fan = 8;
+  struct Leaf {
+    float x[fan], y[fan], z[fan];  // infinity behind the last point
+  };
+  struct Node {
+    float low[3][fan], high[3][fan];  // the boxes of eight children; infinity to -infinity: no child
+  };
+
+ private:
+  void sort(const std::vector<Eigen::Vector3f>& points, std::size_t begin, std::size_t end, int depth,
+            const Context& context);
+  void build(const std::vector<Eigen::Vector3f>& points, const Context& context);
+  template <class Search>
+  void visit(Search& search, std::size_t level, std::size_t node) const;
+
+  std::vector<std::uint32_t> order_;
+  std::vector<Leaf> leaves_;
+  std::vector<std::vector<Node>> levels_;  // levels_[0]: nodes over leaves; the last holds the root alone
+};
+
+}  // namespace atrium
