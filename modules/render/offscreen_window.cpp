@@ -1,0 +1,123 @@
+#include "modules/render/offscreen_window.hpp"
+
+// GLEW before any other OpenGL header.
+#include <GL/glew.h>
+//
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkObjectFactory.h>
+
+#include <array>
+#include <mutex>
+#include <string>
+
+#include "graph/api/error.hpp"
+
+namespace atrium::render {
+namespace {
+
+[[noreturn]] void no_rendering(const std::string& reason) {
+  throw Error("no picture can be drawn on this machine: " + reason,
+              "install Mesa's software renderer: apt-get install libegl-mesa0 libgl1-mesa-dri");
+}
+
+/// The process's OpenGL context; made once, never destroyed (drivers crash when libraries unload before it).
+struct Context {
+  EGLDisplay display = EGL_NO_DISPLAY;
+  EGLSurface surface = EGL_NO_SURFACE;
+  EGLContext context = EGL_NO_CONTEXT;
+
+  Context() {
+    const auto platform_display =
+        reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
+    if (platform_display == nullptr) no_rendering("EGL knows no platforms");
+    display = platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE)
+      no_rendering("EGL's surfaceless platform does not start");
+    if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) no_rendering("EGL has no OpenGL");
+    constexpr std::array<EGLint, 13> wanted{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
+                                            EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8, EGL_DEPTH_SIZE, 24,
+                                            EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint count = 0;
+    if (eglChooseConfig(display, wanted.data(), &config, 1, &count) == EGL_FALSE || count == 0)
+      no_rendering("EGL offers no suitable configuration");
+    constexpr std::array<EGLint, 5> size{EGL_WIDTH, 16, EGL_HEIGHT, 16, EGL_NONE};
+    surface = eglCreatePbufferSurface(display, config, size.data());
+    constexpr std::array<EGLint, 7> version{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 2,
+                                            EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                            EGL_NONE};
+    context = eglCreateContext(display, config, EGL_NO_CONTEXT, version.data());
+    if (context == EGL_NO_CONTEXT) no_rendering("no OpenGL 3.2 context can be made");
+  }
+};
+
+Context& shared_context() {
+  static auto* context = new Context;  // NOLINT(cppcoreguidelines-owning-memory): lives as long as the process
+  return *context;
+}
+
+std::mutex& render_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+}  // namespace
+
+/// VTK's window for a context that somebody else owns, told to use ours.
+class SurfacelessWindow : public vtkGenericOpenGLRenderWindow {
+ public:
+  static SurfacelessWindow* New();
+  vtkTypeMacro(SurfacelessWindow, vtkGenericOpenGLRenderWindow);
+
+  void MakeCurrent() override {
+    const Context& c = shared_context();
+    eglMakeCurrent(c.display, c.surface, c.surface, c.context);
+  }
+  bool IsCurrent() override { return eglGetCurrentContext() == shared_context().context; }
+  void OpenGLInitContext() override {
+    if (Initialized != 0) return;
+    MakeCurrent();
+    glewExperimental = GL_TRUE;
+    // Debian's GLEW loads every entry point and only then reports (4) that it finds no GLX display.
+    const GLenum result = glewInit();
+    if (result != GLEW_OK && result != 4) no_rendering("OpenGL's functions cannot be loaded");
+    GlewInitValid = true;
+    Initialized = 1;
+    MaximumHardwareLineWidth = 1.0F;
+   
+  }
+
+ protected:
+  SurfacelessWindow() = default;
+};
+vtkStandardNewMacro(SurfacelessWindow);
+
+OffscreenWindow::OffscreenWindow(int width, int height) : window_(nullptr) {
+  shared_context();
+  auto* window = SurfacelessWindow::New();
+  window->SetOffScreenRendering(1);
+  window->SetSwapBuffers(0);
+  window->SetFrameBlitModeToNoBlit();
+  window->SetMapped(1);
+  window->SetIsCurrent(true);
+  window->SetReadyForRendering(true);
+  window->SetMultiSamples(0);
+  window->SetSize(width, height);
+  window->MakeCurrent();
+  window->OpenGLInit();
+  window_ = window;
+}
+
+OffscreenWindow::~OffscreenWindow() {
+  window_->Finalize();
+  window_->Delete();
+  // The next picture may be drawn by another thread.
+  eglMakeCurrent(shared_context().display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
+RenderLock::RenderLock() { render_mutex().lock(); }
+RenderLock::~RenderLock() { render_mutex().unlock(); }
+
+}  // namespace atrium::render

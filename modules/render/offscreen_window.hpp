@@ -1,0 +1,32 @@
+#pragma once
+#include <memory>
+
+class vtkRenderWindow;
+
+namespace atrium::render {
+
+/// A VTK render window without a display, on EGL's surfaceless platform (Mesa): needs no X server, no device and no
+/// environment variable. All windows of the process share one context; hold a RenderLock while one exists.
+class OffscreenWindow {
+ public:
+  /// Throws Error where there is no way to render (no EGL, no OpenGL 3.2).
+  OffscreenWindow(int width, int height);
+  ~OffscreenWindow();
+  OffscreenWindow(const OffscreenWindow&) = delete;
+  OffscreenWindow& operator=(const OffscreenWindow&) = delete;
+  vtkRenderWindow* get() const { return window_; }
+
+ private:
+  vtkRenderWindow* window_;
+};
+
+/// One picture is drawn at a time: OpenGL contexts belong to threads, and nodes run on many.
+class RenderLock {
+ public:
+  RenderLock();
+  ~RenderLock();
+  RenderLock(const RenderLock&) = delete;
+  RenderLock& operator=(const RenderLock&) = delete;
+};
+
+}  // namespace atrium::render

@@ -1,0 +1,101 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "graph/api/node.hpp"
+#include "modules/types/adjacency.hpp"
+#include "modules/types/cloud.hpp"
+#include "modules/types/ground_truth.hpp"
+#include "modules/types/mesh.hpp"
+#include "modules/types/picture.hpp"
+#include "modules/types/plane_meshes.hpp"
+#include "modules/types/plane_primitives.hpp"
+
+namespace atrium::render {
+
+/// Draws any stage of a run into PNG files, without a display (VTK on EGL's surfaceless platform).
+///
+/// All inputs are optional, at least one must be wired; they are drawn together. Inputs in another frame than z up come
+/// with the transform that brings them there: `transform` applies to all of them. The camera fits the meshes and the cloud
+/// without its outermost 0.1 %. Errors: nothing to draw; an unknown view; no way to render on this machine.
+struct Snapshot {
+  static constexpr std::string_view type = "render.snapshot";
+  static constexpr std::string_view summary = "Draws clouds, primitives and meshes into PNG files, without a display.";
+
+  struct In {
+    OptionalInput<Cloud> cloud;
+    OptionalInput<PlanePrimitives> planes;
+    OptionalInput<PlaneMeshes> meshes;
+    OptionalInput<Adjacency> adjacency;
+    OptionalInput<Mesh> mesh;
+    OptionalInput<Mesh> objects;
+    OptionalInput<GroundTruth> truth;
+    OptionalInput<Transform> transform;
+  };
+  struct Out {
+    Pictures pictures;
+  };
+  enum class ColourBy { automatic, colour, height, label, plain };
+  enum class Background { white, black };
+  struct Params {
+    OutputPath path{"snapshot.png"};
+    std::vector<std::string> views{"isometric"};
+    std::vector<double> eye;
+    std::vector<double> target;
+    std::int64_t width = 1280;
+    std::int64_t height = 960;
+    ColourBy colour_by = ColourBy::automatic;
+    double point_size = 2;
+    bool perspective = false;
+    bool ceilings = false;
+    double cut_below_top = 0.4;
+    bool edges = true;
+    bool legend = true;
+    bool scale_bar = true;
+    std::string title;
+    Background background = Background::white;
+  };
+
+  static constexpr auto inputs = std::tuple{
+      port(&In::cloud, "cloud", "Points."),
+      port(&In::planes, "planes", "Planar primitives: their points, a colour each, the others grey."),
+      port(&In::meshes, "meshes", "Planar meshes, coloured by class."),
+      port(&In::adjacency, "adjacency", "Drawn as lines between the centres of `meshes`, which it needs."),
+      port(&In::mesh, "mesh", "A structural or scene mesh, coloured by class."),
+      port(&In::objects, "objects", "A mesh of furniture."),
+      port(&In::truth, "truth", "Ground truth of a simulated scene, coloured by class."),
+      port(&In::transform, "transform", "From the inputs' frame to z up; without it they are taken to be z up.")};
+  static constexpr auto outputs = std::tuple{port(&Out::pictures, "pictures", "One per view, for a contact sheet.")};
+  static constexpr auto params = std::tuple{
+      param(&Params::path, "path", "PNG file; with several views the view's name is added before the extension."),
+      param(&Params::views, "views", "Any of isometric, top, front, back, left, right, inside. Walls that face away are "
+                                     "left out, so that rooms are seen from outside."),
+      param(&Params::eye, "eye", metres, unbounded, "Explicit camera: where it stands, [x, y, z] in the z-up frame, in "
+                                                    "place of `views`; needs `target`."),
+      param(&Params::target, "target", metres, unbounded, "Explicit camera: what it looks at, [x, y, z]."),
+      param(&Params::width, "width", count, within(16, 8192), "Pixels across."),
+      param(&Params::height, "height", count, within(16, 8192), "Pixels down."),
+      param(&Params::colour_by, "colour_by",
+            {{"automatic", ColourBy::automatic},
+             {"colour", ColourBy::colour},
+             {"height", ColourBy::height},
+             {"label", ColourBy::label},
+             {"plain", ColourBy::plain}},
+            "Colour of the cloud; automatic: its own colours where it has them, else height."),
+      param(&Params::point_size, "point_size", unitless, within(1, 20), "Pixels."),
+      param(&Params::perspective, "perspective", "Perspective instead of parallel projection."),
+      param(&Params::ceilings, "ceilings", "Draw ceilings too."),
+      param(&Params::cut_below_top, "cut_below_top", metres, within(0, 100),
+            "Points nearer than this to the top of the cloud are left out in the isometric and top views, so that rooms "
+            "are looked into; not with `ceilings`."),
+      param(&Params::edges, "edges", "Draw the outlines of faces."),
+      param(&Params::legend, "legend", "Name the classes' colours."),
+      param(&Params::scale_bar, "scale_bar", "A bar of known length (parallel projection only)."),
+      param(&Params::title, "title", "Text at the top."),
+      param(&Params::background, "background", {{"white", Background::white}, {"black", Background::black}}, "")};
+
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::render
