@@ -7,18 +7,48 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
+#include <thread>
 
 #include "graph/api/error.hpp"
 
 namespace atrium {
+namespace {
+
+double thread_cpu_seconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Tells the host what a helping thread's piece cost (the loop's own thread is timed by who runs the node).
+class HelpTimer {
+ public:
+  HelpTimer(ContextHost& host, bool helping)
+      : host_(host), helping_(helping), start_(helping ? thread_cpu_seconds() : 0) {}
+  ~HelpTimer() {
+    if (helping_) host_.helped(thread_cpu_seconds() - start_);
+  }
+  HelpTimer(const HelpTimer&) = delete;
+  HelpTimer& operator=(const HelpTimer&) = delete;
+
+ private:
+  ContextHost& host_;
+  bool helping_;
+  double start_;
+};
+
+}  // namespace
 
 void Context::parallel_chunks(std::size_t total, std::size_t size,
                               const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const {
   if (total == 0) return;
   const std::size_t chunk = std::max<std::size_t>(size, 1);
   const std::size_t chunks = (total + chunk - 1) / chunk;
+  const auto caller = std::this_thread::get_id();
   const auto one = [&](std::size_t i) {
     check_cancelled();
+    const HelpTimer timer(*host_, std::this_thread::get_id() != caller);
     work(i, i * chunk, std::min(total, (i + 1) * chunk));
   };
   if (chunks == 1) {

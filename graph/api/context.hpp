@@ -21,6 +21,8 @@ class ContextHost {
   virtual bool cancelled() { return false; }
   virtual std::filesystem::path output_folder() { return "."; }
   virtual void wrote(const std::filesystem::path& /*file*/) {}
+  /// CPU seconds that another thread than the loop's own spent on pieces of a loop.
+  virtual void helped(double /*cpu_seconds*/) {}
 };
 
 /// A node's only way to the outside: randomness, threads, logging, progress, cancellation, files. Safe to use from the

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 struct XXH3_state_s;
@@ -24,8 +26,9 @@ namespace atrium {
 ///   };
 ///
 /// A type whose fields cannot be listed gives `static auto contents(const T&)`, a value that can be walked instead.
-/// The fields give content hashes and sizes. Structs inside need only `members`. Numbers, strings, containers, shared
-/// pointers and Eigen's fixed-size matrices are known.
+/// The fields give content hashes and sizes. A type with `static std::vector<Fact> facts(const T&)` is printed when it
+/// is an output of a pipeline. Structs inside need only `members`. Numbers, strings, containers, shared pointers and
+/// Eigen's fixed-size matrices are known.
 template <class T>
 struct PortType {
   static constexpr std::string_view name = T::port_type;
@@ -164,17 +167,46 @@ std::size_t byte_size(const T& value) {
   return sink.size;
 }
 
+/// One line of a value's printed form.
+struct Fact {
+  std::string name;  ///< empty for a value that is a single number or text
+  std::variant<bool, std::int64_t, double, std::string> value;
+  std::string unit;  ///< "m", "deg", …; empty for none
+};
+
+namespace detail {
+
+/// A port type is printable if it is a number or a text, or has `static std::vector<Fact> facts(const T&)`.
+template <class T>
+concept HasFacts = requires(const T& v) {
+  { T::facts(v) } -> std::same_as<std::vector<Fact>>;
+};
+template <class T>
+constexpr auto facts_of() -> std::vector<Fact> (*)(const void*) {
+  if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::int64_t> || std::is_same_v<T, double> ||
+                std::is_same_v<T, std::string>) {
+    return [](const void* p) { return std::vector<Fact>{{"", *static_cast<const T*>(p), ""}}; };
+  } else if constexpr (HasFacts<T>) {
+    return [](const void* p) { return T::facts(*static_cast<const T*>(p)); };
+  } else {
+    return nullptr;
+  }
+}
+
+}  // namespace detail
+
 /// A value on an edge, type-erased.
 struct Value {
   std::shared_ptr<const void> data;
   std::string (*hash)(const void*) = nullptr;
   std::size_t (*bytes)(const void*) = nullptr;
+  std::vector<Fact> (*facts)(const void*) = nullptr;  ///< null: the type is not one that is printed
 };
 
 template <class T>
 Value make_value(std::shared_ptr<const T> data) {
   return {std::move(data), [](const void* p) { return content_hash(*static_cast<const T*>(p)); },
-          [](const void* p) { return byte_size(*static_cast<const T*>(p)); }};
+          [](const void* p) { return byte_size(*static_cast<const T*>(p)); }, detail::facts_of<T>()};
 }
 
 }  // namespace atrium

@@ -1,9 +1,10 @@
 #pragma once
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "graph/pipeline/pipeline.hpp"
@@ -11,10 +12,50 @@
 namespace atrium {
 
 struct RunOptions {
-  std::filesystem::path out;  ///< the run's folder
-  int threads = 0;            ///< 0: one per core
+  std::filesystem::path out;  ///< the run's folder; empty: nothing is recorded, nodes write into the working folder
+  int threads = 0;            ///< 0: one per core; 1: strictly one after the other
   bool hashes = true;         ///< content hashes of outputs in the manifest
-  std::atomic<bool>* cancel = nullptr;
+  const std::atomic<bool>* cancel = nullptr;  ///< set it to end the run: no node is started after that
+};
+
+enum class NodeStatus {
+  ok,
+  failed,
+  skipped,    ///< a node that it depends on failed
+  cancelled,  ///< the run was ended before this node was done
+};
+std::string_view name_of(NodeStatus status);
+
+/// What one output of a node was.
+struct OutputRecord {
+  std::string port, type;
+  std::uint64_t bytes = 0;  ///< held by the value itself, without what it shares with others
+  std::string hash;         ///< of its contents; empty when hashes are off or the node is not ok
+};
+
+/// A file that a node wrote.
+struct Artefact {
+  std::string path;  ///< relative to the run's folder; absolute if it is not in it
+  std::uint64_t bytes = 0;
+};
+
+/// What became of one node. Seconds are since the run's start (`start`) or lengths of time.
+struct NodeRecord {
+  std::string node, type;
+  NodeStatus status = NodeStatus::cancelled;
+  std::string message, help;  ///< of a failed node
+  std::string because;  ///< of a skipped node: the failed node that it depends on (the first in the pipeline's order)
+  double start = 0, wall = 0;
+  /// CPU time of the thread that ran the node, and of other threads in the pieces of the node's Context loops. What a
+  /// library does on threads of its own, or a node in bare oneTBB loops on other threads, is in the run's total only.
+  double cpu = 0;
+  double hash_start = 0,
+         hash_wall = 0;           ///< sizing and hashing the outputs: after the nodes that read them were started
+  std::uint64_t peak_memory = 0;  ///< highest resident memory of the process up to the node's end, bytes
+  int thread = 0;                 ///< which of the run's threads, from 0
+  std::vector<OutputRecord> outputs;
+  std::vector<std::string> warnings;
+  std::vector<Artefact> artefacts;
 };
 
 struct NodeFailure {
@@ -22,23 +63,34 @@ struct NodeFailure {
 };
 
 struct RunResult {
-  std::vector<NodeFailure> failures;  ///< empty: the run is complete
+  std::vector<NodeFailure> failures;  ///< in the pipeline's order; empty and not cancelled: the run is complete
   bool cancelled = false;
-  std::map<std::string, Value> outputs;  ///< the pipeline's named outputs
+  std::map<std::string, Value> outputs;  ///< the pipeline's named outputs, as far as their nodes are ok
+  std::vector<NodeRecord> nodes;         ///< one per node of the pipeline, in its order
+  int threads = 0;
+  double wall = 0, cpu = 0;       ///< of the whole run; cpu: all threads of the process
+  std::uint64_t peak_memory = 0;  ///< of the process, bytes
 };
 
-/// What tells a person how far a run is. One live line on a terminal, plain lines otherwise; safe from any thread.
+/// What tells a person how far a run is. Called from any thread.
 class ProgressSink {
  public:
   virtual ~ProgressSink() = default;
+  virtual void planned(std::size_t /*nodes*/) {}
   virtual void started(const std::string& /*node*/) {}
   virtual void progress(const std::string& /*node*/, double /*share*/) {}
-  virtual void finished(const std::string& /*node*/, double /*seconds*/) {}
+  /// Of every node, also of one that was never started. Valid during the call only.
+  virtual void finished(const NodeRecord& /*node*/) {}
   virtual void message(const std::string& /*node*/, std::string_view /*text*/, bool /*warning*/) {}
 };
 
-/// Runs a checked pipeline: independent nodes side by side on one oneTBB arena, a value freed as soon as its last
-/// reader is done. Writes resolved.yaml, manifest.json and trace.json into the run's folder (also when a node fails).
+/// Runs a checked pipeline: independent nodes side by side on one oneTBB arena, which the nodes' own loops share; a
+/// value is freed as soon as its last reader is done. A node that throws fails: what depends on it is skipped, the rest
+/// is run. Writes resolved.yaml, manifest.json and trace.json into the run's folder (also when a node fails or the run
+/// is cancelled). Results do not depend on the number of threads. Throws Error if the folder cannot be used.
 RunResult run_pipeline(const Pipeline& pipeline, const RunOptions& options, ProgressSink& progress);
+
+/// The seed of a node's random streams.
+std::uint64_t node_seed(std::uint64_t run_seed, std::string_view path);
 
 }  // namespace atrium

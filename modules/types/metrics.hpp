@@ -4,6 +4,8 @@
 #include <tuple>
 #include <vector>
 
+#include "graph/api/value.hpp"
+
 namespace atrium {
 
 struct Metric {
@@ -17,6 +19,12 @@ struct Metric {
 struct Metrics {
   static constexpr std::string_view port_type = "Metrics";
   static constexpr auto members() { return std::tuple{&Metrics::values}; }
+  static std::vector<Fact> facts(const Metrics& metrics) {
+    std::vector<Fact> facts;
+    facts.reserve(metrics.values.size());
+    for (const auto& m : metrics.values) facts.push_back({m.name, m.value, m.unit});
+    return facts;
+  }
   std::vector<Metric> values;
 };
 

@@ -1,0 +1,11 @@
+#pragma once
+#include <cstdint>
+
+namespace atrium {
+
+double wall_seconds();         ///< since some fixed time
+double thread_cpu_seconds();   ///< of the calling thread
+double process_cpu_seconds();  ///< of all threads of the process
+std::uint64_t peak_memory();   ///< highest resident memory of the process so far, bytes
+
+}  // namespace atrium

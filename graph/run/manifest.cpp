@@ -1,0 +1,91 @@
+#include "graph/run/manifest.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "graph/api/plugin.hpp"
+
+namespace atrium {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// To the microsecond: more digits are noise.
+double rounded(double seconds) { return std::round(seconds * 1e6) / 1e6; }
+
+Json head(const Pipeline& pipeline, const std::string& started, std::string_view status) {
+  return {{"atrium", ATRIUM_VERSION},           {"build", ATRIUM_STAMP}, {"status", status},
+          {"pipeline", pipeline.file.string()}, {"started", started},    {"seed", pipeline.seed}};
+}
+
+Json outputs_of(const NodeRecord& node) {
+  Json outputs = Json::array();
+  for (const auto& o : node.outputs) {
+    Json output{{"port", o.port}, {"type", o.type}, {"bytes", o.bytes}};
+    if (!o.hash.empty()) output["hash"] = o.hash;
+    outputs.push_back(std::move(output));
+  }
+  return outputs;
+}
+
+Json node_json(const NodeRecord& node, const NodeType& type) {
+  Json json{{"node", node.node}, {"type", node.type}, {"version", type.version}, {"status", name_of(node.status)}};
+  if (node.status == NodeStatus::failed) {
+    json["message"] = node.message;
+    if (!node.help.empty()) json["help"] = node.help;
+  }
+  if (!node.because.empty()) json["because"] = node.because;
+  if (node.status == NodeStatus::ok || node.status == NodeStatus::failed) {
+    json["wall_seconds"] = rounded(node.wall);
+    json["cpu_seconds"] = rounded(node.cpu);
+    json["peak_memory"] = node.peak_memory;
+  }
+  if (node.status == NodeStatus::ok) json["outputs"] = outputs_of(node);
+  if (!node.warnings.empty()) json["warnings"] = node.warnings;
+  Json artefacts = Json::array();
+  for (const auto& a : node.artefacts) artefacts.push_back({{"path", a.path}, {"bytes", a.bytes}});
+  if (!artefacts.empty()) json["artefacts"] = std::move(artefacts);
+  return json;
+}
+
+Json pipeline_outputs(const Pipeline& pipeline, const RunResult& result) {
+  Json outputs = Json::object();
+  for (const auto& output : pipeline.outputs) {
+    const NodeRecord& node = result.nodes[output.from.node];
+    const PortInfo& port = pipeline.nodes[output.from.node].type->outputs[output.from.output];
+    Json json{{"from", node.node + "." + port.name}, {"type", port.type}};
+    if (node.status == NodeStatus::ok && !node.outputs[output.from.output].hash.empty())
+      json["hash"] = node.outputs[output.from.output].hash;
+    outputs[output.name] = std::move(json);
+  }
+  return outputs;
+}
+
+// Texts of nodes may hold bytes that are not UTF-8 (file names): they are replaced, never thrown at.
+std::string text(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+}  // namespace
+
+std::string manifest_json(const Pipeline& pipeline, const RunResult& result, const std::string& started) {
+  const std::string_view status = !result.failures.empty() ? "failed" : result.cancelled ? "cancelled" : "ok";
+  Json json = head(pipeline, started, status);
+  json["threads"] = result.threads;
+  json["wall_seconds"] = rounded(result.wall);
+  json["cpu_seconds"] = rounded(result.cpu);
+  json["peak_memory"] = result.peak_memory;
+  double hashing = 0;
+  for (const auto& node : result.nodes) hashing += node.hash_wall;
+  json["hash_seconds"] = rounded(hashing);
+  json["outputs"] = pipeline_outputs(pipeline, result);
+  Json nodes = Json::array();
+  for (std::size_t n = 0; n < result.nodes.size(); ++n)
+    nodes.push_back(node_json(result.nodes[n], *pipeline.nodes[n].type));
+  json["nodes"] = std::move(nodes);
+  return text(json);
+}
+
+std::string unfinished_manifest(const Pipeline& pipeline, const std::string& started) {
+  return text(head(pipeline, started, "running"));
+}
+
+}  // namespace atrium

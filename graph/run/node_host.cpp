@@ -1,0 +1,51 @@
+#include "graph/run/node_host.hpp"
+
+#include <algorithm>
+
+namespace atrium {
+namespace {
+
+Artefact describe(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  Artefact artefact;
+  const auto absolute = std::filesystem::absolute(file).lexically_normal();
+  const auto relative = absolute.lexically_relative(std::filesystem::absolute(folder).lexically_normal());
+  const bool inside = !folder.empty() && !relative.empty() && *relative.begin() != "..";
+  artefact.path = (inside ? relative : absolute).generic_string();
+  std::error_code gone;
+  const auto size = std::filesystem::file_size(absolute, gone);
+  artefact.bytes = gone ? 0 : size;
+  return artefact;
+}
+
+}  // namespace
+
+void NodeHost::log(Level level, std::string_view text) {
+  if (level == Level::warning) {
+    const std::lock_guard lock(mutex_);
+    warnings_.emplace_back(text);
+  }
+  progress_.message(node_, text, level == Level::warning);
+}
+
+void NodeHost::wrote(const std::filesystem::path& file) {
+  const std::lock_guard lock(mutex_);
+  files_.push_back(file);
+}
+
+void NodeHost::helped(double cpu_seconds) {
+  const std::lock_guard lock(mutex_);
+  helped_ += cpu_seconds;
+}
+
+void NodeHost::finish(NodeRecord& record) {
+  const std::lock_guard lock(mutex_);
+  record.cpu += helped_;
+  record.warnings = std::move(warnings_);
+  for (const auto& file : files_) record.artefacts.push_back(describe(file, folder_));
+  const auto by_path = [](const Artefact& a, const Artefact& b) { return a.path < b.path; };
+  std::sort(record.artefacts.begin(), record.artefacts.end(), by_path);
+  const auto same = [](const Artefact& a, const Artefact& b) { return a.path == b.path; };
+  record.artefacts.erase(std::unique(record.artefacts.begin(), record.artefacts.end(), same), record.artefacts.end());
+}
+
+}  // namespace atrium

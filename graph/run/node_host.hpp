@@ -1,0 +1,40 @@
+#pragma once
+#include <atomic>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "graph/run/runner.hpp"
+
+namespace atrium {
+
+/// What a node's Context is connected to during a run.
+class NodeHost final : public ContextHost {
+ public:
+  NodeHost(const std::string& node, const std::filesystem::path& folder, const std::atomic<bool>* cancel,
+           ProgressSink& progress)
+      : node_(node), folder_(folder), cancel_(cancel), progress_(progress) {}
+
+  void log(Level level, std::string_view text) override;
+  void progress(double share) override { progress_.progress(node_, share); }
+  bool cancelled() override { return cancel_ != nullptr && cancel_->load(std::memory_order_relaxed); }
+  std::filesystem::path output_folder() override { return folder_.empty() ? "." : folder_; }
+  void wrote(const std::filesystem::path& file) override;
+  void helped(double cpu_seconds) override;
+
+  /// Hands over what the node has said and written; after its end.
+  void finish(NodeRecord& record);
+
+ private:
+  const std::string& node_;
+  const std::filesystem::path& folder_;
+  const std::atomic<bool>* cancel_;
+  ProgressSink& progress_;
+  std::mutex mutex_;
+  std::vector<std::string> warnings_;
+  std::vector<std::filesystem::path> files_;
+  double helped_ = 0;
+};
+
+}  // namespace atrium

@@ -1,0 +1,107 @@
+#include "graph/run/run_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "graph/run/manifest.hpp"
+#include "graph/run/trace.hpp"
+
+namespace atrium {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_file(const fs::path& target, const std::string& text) {
+  AtomicFile file(target);
+  file.write(text);
+  file.commit();
+}
+
+// Null unless the folder holds a run of ours.
+nlohmann::json read_manifest(const fs::path& folder) {
+  std::ifstream file(folder / "manifest.json");
+  auto manifest = nlohmann::json::parse(file, nullptr, false);
+  if (!manifest.is_object() || !manifest.contains("atrium")) return nullptr;
+  return manifest;
+}
+
+std::set<fs::path> files_read(const Pipeline& pipeline) {
+  std::set<fs::path> files;
+  const auto add = [&](const std::string& path) { files.insert(fs::weakly_canonical(path)); };
+  for (const auto& node : pipeline.nodes) {
+    for (std::size_t i = 0; i < node.params.size(); ++i) {
+      const ParamKind kind = node.type->params[i].kind;
+      if (kind == ParamKind::input_path) add(std::get<std::string>(node.params[i]));
+      if (kind != ParamKind::input_paths) continue;
+      for (const auto& path : std::get<std::vector<std::string>>(node.params[i])) add(path);
+    }
+  }
+  return files;
+}
+
+}  // namespace
+
+RunFolder::RunFolder(fs::path folder, const Pipeline& pipeline)
+    : folder_(std::move(folder)),
+      pipeline_(pipeline),
+      started_(fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))) {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) throw Error("cannot make the folder " + folder_.string() + ": " + error.message());
+  lock();
+  try {
+    remove_earlier_run();
+    write_file(folder_ / "manifest.json", unfinished_manifest(pipeline_, started_));
+    write_file(folder_ / "resolved.yaml", resolved_yaml(pipeline_));
+  } catch (...) {
+    ::close(lock_);
+    throw;
+  }
+}
+
+RunFolder::~RunFolder() { ::close(lock_); }
+
+void RunFolder::lock() {
+  lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0) throw Error("cannot open the folder " + folder_.string() + ": " + std::strerror(errno));
+  if (::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(lock_);
+  throw Error("another run is writing into " + folder_.string(), "choose another folder with --out");
+}
+
+void RunFolder::remove_earlier_run() {
+  if (fs::is_empty(folder_)) return;
+  const auto manifest = read_manifest(folder_);
+  if (manifest.is_null())
+    throw Error(folder_.string() + " is not empty and is not the folder of a run",
+                "choose another folder with --out, or empty it");
+  const auto needed = files_read(pipeline_);
+  std::error_code ignored;
+  const auto nodes = manifest.find("nodes");
+  for (const auto& node : nodes == manifest.end() ? nlohmann::json::array() : *nodes) {
+    for (const auto& artefact : node.value("artefacts", nlohmann::json::array())) {
+      const fs::path relative = fs::path(artefact.value("path", "")).lexically_normal();
+      if (relative.empty() || relative.is_absolute() || *relative.begin() == "..") continue;
+      const fs::path file = folder_ / relative;
+      const bool same =
+          fs::is_regular_file(file, ignored) && fs::file_size(file, ignored) == artefact.value("bytes", 0U);
+      if (same && !needed.contains(fs::weakly_canonical(file))) fs::remove(file, ignored);
+    }
+  }
+  fs::remove(folder_ / "trace.json", ignored);
+}
+
+void RunFolder::finish(const RunResult& result) {
+  write_file(folder_ / "trace.json", trace_json(result));
+  write_file(folder_ / "manifest.json", manifest_json(pipeline_, result, started_));
+}
+
+}  // namespace atrium

@@ -1,0 +1,33 @@
+#pragma once
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "graph/run/runner.hpp"
+
+namespace atrium {
+
+/// The folder of one run. It is refused if it holds anything but an earlier run, whose files are removed first (those
+/// that its manifest lists and that still have the size listed, unless this pipeline reads them): what is in the folder
+/// afterwards is of this run. Locked against a second run at the same time.
+class RunFolder {
+ public:
+  /// Makes the folder; writes resolved.yaml and a manifest.json that says that the run is not finished. Throws Error.
+  RunFolder(std::filesystem::path folder, const Pipeline& pipeline);
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+  /// Writes manifest.json and trace.json.
+  void finish(const RunResult& result);
+
+ private:
+  void lock();
+  void remove_earlier_run();
+
+  std::filesystem::path folder_;
+  const Pipeline& pipeline_;
+  std::string started_;
+  int lock_ = -1;
+};
+
+}  // namespace atrium

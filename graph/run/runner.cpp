@@ -1,0 +1,44 @@
+#include "graph/run/runner.hpp"
+
+#include <xxhash.h>
+
+#include "graph/run/clocks.hpp"
+#include "graph/run/run_folder.hpp"
+#include "graph/run/scheduler.hpp"
+
+namespace atrium {
+
+std::string_view name_of(NodeStatus status) {
+  switch (status) {
+    case NodeStatus::ok:
+      return "ok";
+    case NodeStatus::failed:
+      return "failed";
+    case NodeStatus::skipped:
+      return "skipped";
+    default:
+      return "cancelled";
+  }
+}
+
+std::uint64_t node_seed(std::uint64_t run_seed, std::string_view path) {
+  return mix_seed(run_seed, XXH3_64bits(path.data(), path.size()));
+}
+
+RunResult run_pipeline(const Pipeline& pipeline, const RunOptions& options, ProgressSink& progress) {
+  RunOptions absolute = options;
+  if (!options.out.empty()) absolute.out = std::filesystem::absolute(options.out).lexically_normal();
+  Scheduler scheduler(pipeline, absolute, progress);
+  if (options.out.empty()) return scheduler.run();
+  RunFolder folder(absolute.out, pipeline);
+  const double wall = wall_seconds();
+  const double cpu = process_cpu_seconds();
+  RunResult result = scheduler.run();
+  result.wall = wall_seconds() - wall;
+  result.cpu = process_cpu_seconds() - cpu;
+  result.peak_memory = peak_memory();
+  folder.finish(result);
+  return result;
+}
+
+}  // namespace atrium

@@ -1,0 +1,248 @@
+#include "graph/run/scheduler.hpp"
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <algorithm>
+#include <new>
+#include <tuple>
+
+#include "graph/run/clocks.hpp"
+#include "graph/run/node_host.hpp"
+
+namespace atrium {
+namespace {
+
+// Nodes shorter than this share the last reading of the process's peak memory: a reading takes about as long as a small
+// node.
+constexpr double peak_reading_interval = 1e-3;
+
+}  // namespace
+
+bool Scheduler::Ready::operator<(const Ready& other) const {
+  return std::tuple(stamp, is_end, remaining, other.node) <
+         std::tuple(other.stamp, other.is_end, other.remaining, node);
+}
+
+Scheduler::Scheduler(const Pipeline& pipeline, const RunOptions& options, ProgressSink& progress)
+    : pipeline_(pipeline),
+      options_(options),
+      progress_(progress),
+      plan_(make_plan(pipeline)),
+      values_(pipeline.nodes.size()),
+      blocked_(pipeline.nodes.size(), 0),
+      blocker_(pipeline.nodes.size(), pipeline.nodes.size()) {
+  result_.nodes.resize(pipeline.nodes.size());
+  for (std::size_t n = 0; n < pipeline.nodes.size(); ++n) {
+    result_.nodes[n].node = pipeline.nodes[n].path;
+    result_.nodes[n].type = pipeline.nodes[n].type->type;
+    values_[n].resize(pipeline.nodes[n].type->outputs.size());
+  }
+}
+
+RunResult Scheduler::run() {
+  const int threads = options_.threads > 0 ? options_.threads : tbb::this_task_arena::max_concurrency();
+  result_.threads = threads;
+  start_ = wall_seconds();
+  peak_memory_ = peak_memory();
+  progress_.planned(pipeline_.nodes.size());
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads, 1);
+  arena.execute([&] {
+    tbb::task_group group;
+    spawn_ = [&](std::size_t tasks) {
+      for (std::size_t i = 0; i < tasks; ++i) group.run([this] { step(); });
+    };
+    for (std::size_t n = 0; n < pipeline_.nodes.size(); ++n)
+      if (plan_.waits[n] == 0) ready_.push({stamp_, n, plan_.followers[n].empty(), plan_.remaining[n]});
+    ++stamp_;
+    spawn_(ready_.size());
+    group.wait();
+  });
+  for (const auto& output : pipeline_.outputs) {
+    const Value& value = values_[output.from.node][output.from.output];
+    if (value.data) result_.outputs[output.name] = value;
+  }
+  for (const auto& node : result_.nodes) {
+    if (node.status == NodeStatus::failed) result_.failures.push_back({node.node, node.type, node.message, node.help});
+    result_.cancelled = result_.cancelled || node.status == NodeStatus::cancelled;
+  }
+  return std::move(result_);
+}
+
+bool Scheduler::stopping() const { return options_.cancel != nullptr && options_.cancel->load(); }
+
+void Scheduler::step() {
+  std::size_t n = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    n = ready_.top().node;
+    ready_.pop();
+  }
+  if (!stopping()) {
+    execute(n);
+    return;
+  }
+  progress_.finished(result_.nodes[n]);
+  settle(n, {});
+}
+
+void Scheduler::execute(std::size_t n) {
+  NodeRecord& record = result_.nodes[n];
+  progress_.started(record.node);
+  Inputs inputs;
+  {
+    const std::lock_guard lock(mutex_);
+    inputs = inputs_of(n);
+  }
+  std::vector<Value> outputs;
+  const bool ok = call(n, inputs, outputs);
+  inputs.clear();  // the last reference goes in settle
+  if (record.wall >= peak_reading_interval) peak_memory_ = peak_memory();
+  record.peak_memory = peak_memory_;
+  if (ok)
+    record.status = NodeStatus::ok;
+  else
+    outputs.clear();
+  progress_.finished(record);
+  settle(n, outputs);
+  if (ok) describe(n, outputs);
+}
+
+bool Scheduler::call(std::size_t n, const Inputs& inputs, std::vector<Value>& outputs) {
+  const PipelineNode& node = pipeline_.nodes[n];
+  NodeRecord& record = result_.nodes[n];
+  const auto host = std::make_shared<NodeHost>(record.node, options_.out, options_.cancel, progress_);
+  Context context(node_seed(pipeline_.seed, node.path), host);
+  record.thread = tbb::this_task_arena::current_thread_index();
+  record.start = wall_seconds() - start_;
+  const double cpu = thread_cpu_seconds();
+  bool ok = false;
+  try {
+    // Isolated: a thread that waits in the node's loops must not start another node meanwhile.
+    tbb::this_task_arena::isolate([&] { outputs = node.type->run(inputs, node.params, context); });
+    ok = true;
+  } catch (const Cancelled&) {
+    if (!stopping()) fail(n, "ended as if cancelled, but nobody cancelled the run", "");
+  } catch (const Error& error) {
+    fail(n, error.what(), error.help());
+  } catch (const std::bad_alloc&) {
+    fail(n, "out of memory", "give it fewer points (a coarser voxel grid, a crop), or run with -j 1");
+  } catch (const std::exception& error) {
+    fail(n, error.what(), "");
+  } catch (...) {
+    fail(n, "threw something that is not a std::exception", "");
+  }
+  record.wall = wall_seconds() - start_ - record.start;
+  record.cpu = thread_cpu_seconds() - cpu;
+  host->finish(record);
+  for (std::size_t i = 0; ok && i < outputs.size(); ++i) {
+    ok = outputs[i].data != nullptr;
+    if (!ok)
+      fail(n, "gave no value for its output '" + node.type->outputs[i].name + "'", "this is a fault of the node type");
+  }
+  return ok;
+}
+
+void Scheduler::fail(std::size_t n, std::string message, std::string help) {
+  NodeRecord& record = result_.nodes[n];
+  record.status = NodeStatus::failed;
+  record.message = std::move(message);
+  record.help = std::move(help);
+}
+
+void Scheduler::describe(std::size_t n, const std::vector<Value>& outputs) {
+  NodeRecord& record = result_.nodes[n];
+  record.hash_start = wall_seconds() - start_;
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const PortInfo& port = pipeline_.nodes[n].type->outputs[i];
+    OutputRecord output{port.name, port.type, 0, {}};
+    try {
+      output.bytes = outputs[i].bytes(outputs[i].data.get());
+      if (options_.hashes) output.hash = outputs[i].hash(outputs[i].data.get());
+    } catch (const std::exception& error) {
+      record.warnings.push_back("output '" + port.name + "' could not be hashed: " + error.what());
+    }
+    record.outputs.push_back(std::move(output));
+  }
+  record.hash_wall = wall_seconds() - start_ - record.hash_start;
+}
+
+Scheduler::Inputs Scheduler::inputs_of(std::size_t n) const {
+  Inputs inputs;
+  inputs.reserve(pipeline_.nodes[n].inputs.size());
+  for (const auto& port : pipeline_.nodes[n].inputs) {
+    auto& values = inputs.emplace_back();
+    for (const Edge& edge : port) values.push_back(values_[edge.node][edge.output]);
+  }
+  return inputs;
+}
+
+void Scheduler::keep_outputs(std::size_t n, const std::vector<Value>& outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    if (plan_.readers[n][i] > 0) values_[n][i] = outputs[i];
+}
+
+void Scheduler::release_inputs(std::size_t n, std::vector<Value>& garbage) {
+  for (const auto& port : pipeline_.nodes[n].inputs) {
+    for (const Edge& edge : port) {
+      if (--plan_.readers[edge.node][edge.output] == 0) garbage.push_back(std::move(values_[edge.node][edge.output]));
+    }
+  }
+}
+
+void Scheduler::block(std::size_t follower, std::size_t by) {
+  const NodeStatus status = result_.nodes[by].status;
+  if (status == NodeStatus::ok) return;
+  blocked_[follower] = 1;
+  if (status == NodeStatus::failed) blocker_[follower] = std::min(blocker_[follower], by);
+  if (status == NodeStatus::skipped) blocker_[follower] = std::min(blocker_[follower], blocker_[by]);
+}
+
+// What can run now is put on the queue (returned: how many); what cannot run any more is passed through at once.
+std::size_t Scheduler::release_followers(std::size_t n, std::vector<Value>& garbage,
+                                         std::vector<std::size_t>& blocked) {
+  std::size_t started = 0;
+  std::vector<std::size_t> settled{n};
+  while (!settled.empty()) {
+    const std::size_t by = settled.back();
+    settled.pop_back();
+    for (const std::size_t f : plan_.followers[by]) {
+      block(f, by);
+      if (--plan_.waits[f] > 0) continue;
+      if (blocked_[f] == 0) {
+        ready_.push({stamp_, f, plan_.followers[f].empty(), plan_.remaining[f]});
+        ++started;
+        continue;
+      }
+      const std::size_t none = pipeline_.nodes.size();
+      if (blocker_[f] != none) {
+        result_.nodes[f].status = NodeStatus::skipped;
+        result_.nodes[f].because = result_.nodes[blocker_[f]].node;
+      }
+      release_inputs(f, garbage);
+      blocked.push_back(f);
+      settled.push_back(f);
+    }
+  }
+  ++stamp_;
+  return started;
+}
+
+void Scheduler::settle(std::size_t n, const std::vector<Value>& outputs) {
+  std::vector<Value> garbage;
+  std::vector<std::size_t> blocked;
+  std::size_t started = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    keep_outputs(n, outputs);
+    release_inputs(n, garbage);
+    started = release_followers(n, garbage, blocked);
+  }
+  spawn_(started);
+  for (const std::size_t b : blocked) progress_.finished(result_.nodes[b]);
+  // Here, without the lock and after the next nodes were started, the garbage is freed.
+}
+
+}  // namespace atrium

@@ -1,0 +1,88 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+
+#include "graph/api/node.hpp"
+
+// Small node types for the tests of the runner.
+namespace atrium::test {
+
+/// A number that knows how many of its kind are alive.
+struct Counted {
+  static constexpr std::string_view port_type = "Counted";
+  static constexpr auto members() { return std::tuple{&Counted::value}; }
+  explicit Counted(std::int64_t v = 0) : value(v) { grow(); }
+  Counted(const Counted& other) : value(other.value) { grow(); }
+  Counted(Counted&& other) noexcept : value(other.value) { grow(); }
+  Counted& operator=(const Counted&) = default;
+  Counted& operator=(Counted&&) = default;
+  ~Counted() { --alive; }
+
+  std::int64_t value;
+  inline static std::atomic<int> alive = 0, most = 0;
+
+ private:
+  static void grow() {
+    const int now = ++alive;
+    for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) {
+    }
+  }
+};
+
+/// sum of the inputs · 3 + add, modulo 2^64; mode makes it misbehave.
+struct Sum {
+  static constexpr std::string_view type = "test.sum";
+  static constexpr std::string_view summary = "Adds.";
+  struct In {
+    Inputs<Counted> terms;
+  };
+  struct Out {
+    Counted sum;
+  };
+  struct Params {
+    std::int64_t add = 1;
+    bool fail = false;
+  };
+  static constexpr auto inputs = std::tuple{port(&In::terms, "terms", "Numbers.")};
+  static constexpr auto outputs = std::tuple{port(&Out::sum, "sum", "Their sum.")};
+  static constexpr auto params =
+      std::tuple{param(&Params::add, "add", count, unbounded, "Added."), param(&Params::fail, "fail", "Throws.")};
+  static std::int64_t value_of(const std::vector<std::int64_t>& terms, std::int64_t add) {
+    auto sum = static_cast<std::uint64_t>(add);
+    for (const auto t : terms) sum += 3 * static_cast<std::uint64_t>(t);
+    return static_cast<std::int64_t>(sum);
+  }
+  static Out run(const In& in, const Params& params, Context& /*context*/) {
+    if (params.fail) throw Error("told to fail", "do not tell it");
+    std::vector<std::int64_t> terms;
+    for (const auto& t : in.terms) terms.push_back(t->value);
+    return {Counted(value_of(terms, params.add))};
+  }
+};
+
+/// Calls a function of the test.
+struct Call {
+  static constexpr std::string_view type = "test.call";
+  static constexpr std::string_view summary = "Calls a function of the test.";
+  struct In {
+    OptionalInput<Counted> after;
+  };
+  struct Out {
+    SharedOutput<Counted> value;
+  };
+  struct Params {
+    std::int64_t which = 0;
+  };
+  static constexpr auto inputs = std::tuple{port(&In::after, "after", "Runs after this.")};
+  static constexpr auto outputs = std::tuple{port(&Out::value, "value", "What the function returns.")};
+  static constexpr auto params = std::tuple{param(&Params::which, "which", count, unbounded, "Which function.")};
+  using Function = std::function<std::shared_ptr<const Counted>(Context&)>;
+  inline static std::vector<Function> functions;
+  static Out run(const In& /*in*/, const Params& params, Context& context) {
+    return {functions.at(static_cast<std::size_t>(params.which))(context)};
+  }
+};
+
+}  // namespace atrium::test
