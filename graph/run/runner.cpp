@@ -10,14 +10,10 @@ namespace atrium {
 
 std::string_view name_of(NodeStatus status) {
   switch (status) {
-    case NodeStatus::ok:
-      return "ok";
-    case NodeStatus::failed:
-      return "failed";
-    case NodeStatus::skipped:
-      return "skipped";
-    default:
-      return "cancelled";
+    case NodeStatus::ok: return "ok";
+    case NodeStatus::failed: return "failed";
+    case NodeStatus::skipped: return "skipped";
+    default: return "cancelled";
   }
 }
 
