@@ -6,25 +6,15 @@
 #include <cmath>
 
 #include "graph/api/error.hpp"
-#include "modules/geometry/radix_sort.hpp"
 
 namespace atrium {
 namespace {
 
 constexpr std::size_t fan = PointTree::fan;
-constexpr unsigned axis_bits = 10;
-constexpr std::size_t chunk_size = std::size_t{1} << 14U;
 using Lanes = float __attribute__((vector_size(16)));  // SSE2
 
 Lanes load(const float* p) { return Lanes{p[0], p[1], p[2], p[3]}; }
 Lanes splat(float v) { return Lanes{v, v, v, v}; }
-
-std::uint32_t spread(std::uint32_t v) {  // ten bits, two apart
-  v = (v | v << 16U) & 0x030000ffU;
-  v = (v | v << 8U) & 0x0300f00fU;
-  v = (v | v << 4U) & 0x030c30c3U;
-  return (v | v << 2U) & 0x09249249U;
-}
 
 /// Squared distances to the eight boxes of a node.
 void box_distances(const PointTree::Node& node, const Eigen::Vector3f& p, float* result) {
@@ -100,51 +90,112 @@ struct All {
 PointTree::PointTree(const std::vector<Eigen::Vector3f>& points, const Context& context) {
   if (points.size() >= 0xffffffffU) throw Error("too many points for a tree: " + std::to_string(points.size()));
   if (points.empty()) return;
-  order_.resize(points.size());
-  for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::uint32_t>(i);
-  sort(points, 0, points.size(), 0, context);
+  sort(points, context);
   build(points, context);
 }
 
-/// Sorts order_[begin, end) along the Morton curve of the range's own box; cells of the curve that hold many points are
-/// sorted again by their own, so that clusters are resolved at any scale.
-void PointTree::sort(const std::vector<Eigen::Vector3f>& points, std::size_t begin, std::size_t end, int depth,
-                     const Context& context) {
-  Eigen::Vector3f low = points[order_[begin]];
-  Eigen::Vector3f high = low;
-  for (std::size_t i = begin; i < end; ++i) {
-    low = low.cwiseMin(points[order_[i]]);
-    high = high.cwiseMax(points[order_[i]]);
+namespace {
+
+struct Item {
+  float at[3];
+  std::uint32_t index;
+};
+
+/// Orders by (coordinate, index): -0 and 0 are the same coordinate.
+std::uint64_t key(const Item& item, int axis) {
+  const auto bits = std::bit_cast<std::uint32_t>(item.at[axis] + 0.0F);
+  const std::uint32_t ordered = bits ^ ((bits >> 31U) != 0 ? 0xffffffffU : 0x80000000U);
+  return static_cast<std::uint64_t>(ordered) << 32U | item.index;
+}
+
+/// Puts the items whose key is below the pivot first; returns where they end. Without branches that depend on data.
+Item* partition(Item* begin, Item* end, int axis, std::uint64_t pivot) {
+  Item* next = begin;
+  for (Item* i = begin; i != end; ++i) {
+    const Item item = *i;
+    *i = *next;
+    *next = item;
+    next += key(item, axis) < pivot ? 1 : 0;
   }
-  const Eigen::Vector3d base = low.cast<double>();
-  const double width = (high.cast<double>() - base).maxCoeff();
-  if (!(width > 0) || depth > 24) return;  // all in one place: by index already
-  const double scale = (1U << axis_bits) / width;
-  std::vector<std::uint64_t> keys(end - begin);
-  const auto index_bits = static_cast<unsigned>(std::bit_width(points.size()));
+  return next;
+}
+
+/// What std::nth_element does, with pivots from a sample on both sides of the target (Floyd & Rivest, 1975).
+void select(Item* begin, Item* middle, Item* end, int axis) {
+  std::array<std::uint64_t, 512> sample;
+  while (end - begin > 64) {
+    const std::ptrdiff_t n = end - begin;
+    const std::ptrdiff_t samples = n > 8192 ? 512 : n > 512 ? 64 : 16;
+    const std::ptrdiff_t margin = n > 8192 ? 32 : n > 512 ? 8 : 3;
+    for (std::ptrdiff_t i = 0; i < samples; ++i)
+      sample[static_cast<std::size_t>(i)] = key(begin[i * n / samples], axis);
+    std::sort(sample.begin(), sample.begin() + samples);
+    const std::ptrdiff_t rank = (middle - begin) * samples / n;
+    const bool upper = rank + margin < samples && (rank - margin < 0 || rank <= samples / 2);
+    const std::ptrdiff_t chosen = upper ? rank + margin : std::max<std::ptrdiff_t>(rank - margin, 1);
+    Item* cut = partition(begin, end, axis, sample[static_cast<std::size_t>(chosen)]);
+    (middle < cut ? end : begin) = cut;
+  }
+  std::nth_element(begin, middle, end, [axis](const Item& a, const Item& b) { return key(a, axis) < key(b, axis); });
+}
+
+struct Range {
+  std::size_t begin, end;
+  std::size_t capacity;  ///< points below one child of the node that is being filled
+};
+
+/// Cuts a range at its widest axis so that both parts fill whole children. Returns false once it fits into a leaf.
+bool split(std::vector<Item>& items, Range range, Range& left, Range& right) {
+  while (range.capacity >= fan && range.end - range.begin <= range.capacity) range.capacity /= fan;
+  if (range.capacity < fan) return false;
+  Lanes low = splat(PointTree::everywhere), high = splat(-PointTree::everywhere);
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    const Lanes p{items[i].at[0], items[i].at[1], items[i].at[2], 0};
+    low = p < low ? p : low;
+    high = p > high ? p : high;
+  }
+  const Lanes width = high - low;
+  const int axis = width[0] >= width[1] && width[0] >= width[2] ? 0 : width[1] >= width[2] ? 1 : 2;
+  const std::size_t children = (range.end - range.begin + range.capacity - 1) / range.capacity;
+  const std::size_t middle = range.begin + (children + 1) / 2 * range.capacity;
+  select(items.data() + range.begin, items.data() + middle, items.data() + range.end, axis);
+  left = {range.begin, middle, range.capacity};
+  right = {middle, range.end, range.capacity};
+  return true;
+}
+
+void split_all(std::vector<Item>& items, Range range) {
+  Range left{}, right{};
+  if (split(items, range, left, right)) {
+    split_all(items, left);
+    split_all(items, right);
+  } else {
+    std::sort(items.begin() + static_cast<std::ptrdiff_t>(range.begin),
+              items.begin() + static_cast<std::ptrdiff_t>(range.end),
+              [](const Item& a, const Item& b) { return a.index < b.index; });
+  }
+}
+
+}  // namespace
+
+/// Orders the points as the leaves of a balanced k-d tree (Bentley 1975) whose every third cut is a node's border.
+void PointTree::sort(const std::vector<Eigen::Vector3f>& points, const Context& context) {
+  std::vector<Item> items(points.size());
+  for (std::size_t i = 0; i < items.size(); ++i)
+    items[i] = {{points[i].x(), points[i].y(), points[i].z()}, static_cast<std::uint32_t>(i)};
+  std::size_t capacity = fan;
+  while (capacity < items.size()) capacity *= fan;
+  std::vector<Range> ranges{{0, items.size(), capacity}};
+  for (int level = 0; level < 6 && items.size() > 10000; ++level) {
+    std::vector<Range> next(2 * ranges.size());
+    context.parallel_for(
+        ranges.size(), [&](std::size_t r, std::size_t) { split(items, ranges[r], next[2 * r], next[2 * r + 1]); }, 1);
+    ranges.swap(next);
+  }
   context.parallel_for(
-      keys.size(),
-      [&](std::size_t first, std::size_t last) {
-        constexpr std::int32_t top = (1 << axis_bits) - 1;
-        for (std::size_t i = first; i < last; ++i) {
-          const std::uint32_t index = order_[begin + i];
-          const Eigen::Vector3d at = (points[index].cast<double>() - base) * scale;
-          std::uint64_t key = 0;
-          for (unsigned axis = 0; axis < 3; ++axis)
-            key |= spread(static_cast<std::uint32_t>(std::min(static_cast<std::int32_t>(at[axis]), top))) << axis;
-          keys[i] = key << index_bits | index;
-        }
-      },
-      chunk_size);
-  radix_sort(keys, index_bits, index_bits + 3 * axis_bits, context);
-  const std::uint64_t mask = (std::uint64_t{1} << index_bits) - 1;
-  for (std::size_t i = 0; i < keys.size(); ++i) order_[begin + i] = static_cast<std::uint32_t>(keys[i] & mask);
-  for (std::size_t i = 0; i < keys.size();) {
-    std::size_t j = i + 1;
-    while (j < keys.size() && keys[j] >> index_bits == keys[i] >> index_bits) ++j;
-    if (j - i > 4 * fan) sort(points, begin + i, begin + j, depth + 1, context);
-    i = j;
-  }
+      ranges.size(), [&](std::size_t r, std::size_t) { split_all(items, ranges[r]); }, 1);
+  order_.resize(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) order_[i] = items[i].index;
 }
 
 void PointTree::build(const std::vector<Eigen::Vector3f>& points, const Context& context) {

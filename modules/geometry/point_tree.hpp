@@ -19,11 +19,10 @@ struct Neighbour {
   friend bool operator==(const Neighbour&, const Neighbour&) = default;
 };
 
-/// Nearest neighbours of any position in a cloud of any density: a packed R-tree (Kamel & Faloutsos, "On packing
-/// R-trees", 1993) of eight-fold nodes over the points in Morton order. Clusters, duplicates by the thousand and wild
-/// outliers cost no more than their share. Equal distances go by index, so answers never depend on threads. Queries are
-/// const and may run side by side; they are fastest in the order of order(), where one finds what the one before has
-/// brought near.
+/// Nearest neighbours of any position in a cloud of any density: a balanced k-d tree (Bentley 1975), packed into
+/// eight-fold nodes of bounding boxes. Clusters, duplicates by the thousand and wild outliers cost no more than their
+/// share. Equal distances go by index, so answers never depend on threads. Queries are const and may run side by side;
+/// they are fastest in the order of order(), where one finds what the one before has brought near.
 class PointTree {
  public:
   static constexpr float everywhere = std::numeric_limits<float>::infinity();
@@ -33,7 +32,7 @@ class PointTree {
   PointTree(const std::vector<Eigen::Vector3f>& points, const Context& context);
 
   std::size_t size() const { return order_.size(); }
-  /// The indices of the points along the Morton curve.
+  /// The indices of the points in the order of the leaves: what is near in space is near in it.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
   /// The nearest point at a distance of at most max_distance (metres). Returns false where there is none.
@@ -53,8 +52,7 @@ class PointTree {
   };
 
  private:
-  void sort(const std::vector<Eigen::Vector3f>& points, std::size_t begin, std::size_t end, int depth,
-            const Context& context);
+  void sort(const std::vector<Eigen::Vector3f>& points, const Context& context);
   void build(const std::vector<Eigen::Vector3f>& points, const Context& context);
   template <class Search>
   void visit(Search& search, std::size_t level, std::size_t node) const;
