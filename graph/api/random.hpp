@@ -17,9 +17,9 @@ class Random {
   /// Uniform in [0, 1).
   double uniform() { return static_cast<double>(engine_() >> 11U) * 0x1.0p-53; }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  /// Uniform in 0 … count-1; count must be above 0.
-  std::uint64_t index(std::uint64_t count) {
-    return static_cast<std::uint64_t>((static_cast<unsigned __int128>(engine_()) * count) >> 64U);
+  /// Uniform in 0 … size-1; size must be above 0.
+  std::uint64_t index(std::uint64_t size) {
+    return static_cast<std::uint64_t>((static_cast<unsigned __int128>(engine_()) * size) >> 64U);
   }
   /// Gaussian of mean 0 and standard deviation 1 (Box and Muller).
   double normal() {

@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   CLI::App app("Atrium: raw indoor point clouds to light planar models, as a graph of nodes.", "atrium");
   app.require_subcommand(1);
   int exit_code = cli::ok;
+  cli::add_check(app, exit_code);
   cli::add_nodes(app, exit_code);
   try {
     app.parse(argc, argv);

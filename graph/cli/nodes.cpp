@@ -35,26 +35,16 @@ nlohmann::ordered_json ports_json(const std::vector<PortInfo>& ports) {
 
 std::string_view kind_name(ParamKind kind) {
   switch (kind) {
-    case ParamKind::boolean:
-      return "boolean";
-    case ParamKind::integer:
-      return "integer";
-    case ParamKind::number:
-      return "number";
-    case ParamKind::text:
-      return "text";
-    case ParamKind::choice:
-      return "choice";
-    case ParamKind::input_path:
-      return "input_path";
-    case ParamKind::output_path:
-      return "output_path";
-    case ParamKind::numbers:
-      return "numbers";
-    case ParamKind::texts:
-      return "texts";
-    case ParamKind::input_paths:
-      return "input_paths";
+    case ParamKind::boolean: return "boolean";
+    case ParamKind::integer: return "integer";
+    case ParamKind::number: return "number";
+    case ParamKind::text: return "text";
+    case ParamKind::choice: return "choice";
+    case ParamKind::input_path: return "input_path";
+    case ParamKind::output_path: return "output_path";
+    case ParamKind::numbers: return "numbers";
+    case ParamKind::texts: return "texts";
+    case ParamKind::input_paths: return "input_paths";
   }
   return "";
 }

@@ -1,5 +1,9 @@
 #pragma once
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "graph/pipeline/pipeline.hpp"
 
 namespace atrium::cli {
 
@@ -12,5 +16,11 @@ void add_check(CLI::App& app, int& exit_code);
 void add_nodes(CLI::App& app, int& exit_code);
 void add_graph(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);
+
+/// The option -s of verbs that read a pipeline.
+void add_settings(CLI::App& verb, std::vector<std::string>& settings);
+std::vector<Override> to_overrides(const std::vector<std::string>& texts);
+/// Warnings and errors, on stderr.
+void print_findings(const LoadResult& result);
 
 }  // namespace atrium::cli

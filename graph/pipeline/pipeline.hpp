@@ -44,6 +44,7 @@ struct Diagnostic {
   int line = 0, column = 0;  ///< from 1; 0: no place (printed without)
   std::string message, help;
   std::vector<std::string> notes;  ///< "set by sweep.yaml:6:9"
+  bool warning = false;
 };
 std::string to_string(const Diagnostic& diagnostic);
 
@@ -57,12 +58,23 @@ struct LoadResult {
   Pipeline pipeline;               ///< valid only when errors is empty
   std::vector<Diagnostic> errors;  ///< all of them, in the order of the file
   std::vector<Diagnostic> warnings;
+  std::vector<std::string> missing;  ///< with allow_missing: variables without a value, "inputs.NAME" without a source
+};
+
+struct LoadOptions {
+  /// A file that is complete but for what its user must give (variables without a value, the inputs of a sub-pipeline)
+  /// is no error. Such a pipeline can be looked at, not run.
+  bool allow_missing = false;
 };
 
 class Registry;
 
 /// Reads and checks a pipeline file: everything before anything runs.
-LoadResult load_pipeline(const std::filesystem::path& file, const std::vector<Override>& overrides, Registry& registry);
+LoadResult load_pipeline(const std::filesystem::path& file, const std::vector<Override>& overrides, Registry& registry,
+                         LoadOptions options = {});
+
+/// Atrium's own version, "0.1.0".
+std::string_view framework_version();
 
 /// The pipeline as a file that gives the same bytes when it is run: every default, the seed, absolute paths, no
 /// variables, no sub-pipelines (ids with '/' stay addresses).

@@ -1,0 +1,95 @@
+// atrium check FILE: everything that can be wrong with a pipeline, before anything runs.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "graph/cli/verbs.hpp"
+#include "graph/pipeline/pipeline.hpp"
+#include "graph/pipeline/registry.hpp"
+
+namespace atrium::cli {
+namespace {
+
+nlohmann::ordered_json to_json(const std::vector<Diagnostic>& findings) {
+  auto list = nlohmann::ordered_json::array();
+  for (const auto& finding : findings)
+    list.push_back({{"file", finding.file},
+                    {"line", finding.line},
+                    {"column", finding.column},
+                    {"message", finding.message},
+                    {"help", finding.help},
+                    {"notes", finding.notes}});
+  return list;
+}
+
+void print_json(const LoadResult& result) {
+  const nlohmann::ordered_json report{{"ok", result.errors.empty()},
+                                      {"nodes", result.pipeline.nodes.size()},
+                                      {"errors", to_json(result.errors)},
+                                      {"warnings", to_json(result.warnings)},
+                                      {"missing", result.missing}};
+  fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+void print_summary(const LoadResult& result) {
+  const std::size_t nodes = result.pipeline.nodes.size();
+  fmt::print("ok: {} node{}", nodes, nodes == 1 ? "" : "s");
+  std::string variables, inputs;
+  for (const auto& name : result.missing) {
+    if (name.starts_with("inputs."))
+      inputs += (inputs.empty() ? "" : ", ") + name.substr(7);
+    else
+      variables += fmt::format(" -s {}=…", name);
+  }
+  if (!variables.empty()) fmt::print("; to run it, set{}", variables);
+  if (!inputs.empty())
+    fmt::print("; a sub-pipeline with the input{} {}", inputs.find(',') == std::string::npos ? "" : "s", inputs);
+  fmt::print("\n");
+}
+
+}  // namespace
+
+std::vector<Override> to_overrides(const std::vector<std::string>& texts) {
+  std::vector<Override> overrides;
+  for (const auto& text : texts) overrides.push_back({text, "-s " + text});
+  return overrides;
+}
+
+void print_findings(const LoadResult& result) {
+  for (const auto& warning : result.warnings) fmt::print(stderr, "{}\n", to_string(warning));
+  for (const auto& error : result.errors) fmt::print(stderr, "{}\n", to_string(error));
+}
+
+void add_check(CLI::App& app, int& exit_code) {
+  struct Options {
+    std::string file;
+    std::vector<std::string> settings;
+    bool json = false;
+  };
+  auto* verb =
+      app.add_subcommand("check", "Checks a pipeline file: every mistake with its place, before anything runs.");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("FILE", options->file, "the pipeline file")->required();
+  add_settings(*verb, options->settings);
+  verb->add_flag("--json", options->json, "findings as JSON on stdout");
+  verb->callback([options, &exit_code] {
+    Registry registry;
+    const LoadResult result =
+        load_pipeline(options->file, to_overrides(options->settings), registry, {.allow_missing = true});
+    if (options->json)
+      print_json(result);
+    else
+      print_findings(result);
+    if (!options->json && result.errors.empty()) print_summary(result);
+    exit_code = result.errors.empty() ? ok : invalid;
+  });
+}
+
+void add_settings(CLI::App& verb, std::vector<std::string>& settings) {
+  verb.add_option("-s,--set", settings, "NODE.PARAMETER=VALUE, NODE.type=TYPE or VARIABLE=VALUE; may be repeated")
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+}  // namespace atrium::cli

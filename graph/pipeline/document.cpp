@@ -1,0 +1,279 @@
+#include "graph/pipeline/document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <unordered_set>
+
+#include "graph/api/suggest.hpp"
+
+namespace atrium {
+namespace {
+
+constexpr std::string_view name_help = "names are lower-case letters, digits and _, and begin with a letter";
+
+class Reader {
+ public:
+  Reader(Document& document, Findings& findings) : document_(document), findings_(findings) {}
+
+  void read(const YamlNode& root) {
+    check_keys(root, {"atrium", "summary", "seed", "versions", "vars", "inputs", "nodes", "outputs"},
+               "a pipeline file");
+    read_format(root);
+    if (const auto* entry = root.find("summary")) document_.summary = scalar(*entry).text;
+    if (const auto* entry = root.find("seed")) read_seed(*entry);
+    read_variables(root.find("vars"));
+    read_pairs(root.find("inputs"), "inputs", document_.inputs, true);
+    read_pairs(root.find("versions"), "versions", document_.versions, false);
+    read_nodes(root);
+    read_outputs(root.find("outputs"));
+    check_variables();
+  }
+
+ private:
+  Where at(Place place) const { return {&document_.source, place}; }
+  void error(Place place, std::string message, std::string help = {}) {
+    findings_.error(at(place), std::move(message), std::move(help));
+  }
+
+  void check_keys(const YamlNode& mapping, const std::vector<std::string>& allowed, const std::string& what) {
+    for (const auto& entry : mapping.entries) {
+      if (std::find(allowed.begin(), allowed.end(), entry.key) != allowed.end()) continue;
+      const std::string hint = findings_.suggest(entry.key, allowed);
+      error(entry.place, fmt::format("unknown key '{}' in {}", entry.key, what),
+            hint.empty() ? fmt::format("keys of {}: {}", what, join_words(allowed)) : hint);
+    }
+  }
+
+  Located scalar(const YamlNode::Entry& entry) {
+    if (entry.value.is_scalar()) return {entry.value.text, entry.value.place};
+    error(entry.value.place, entry.value.is_null() ? fmt::format("'{}' has no value", entry.key)
+                                                   : fmt::format("'{}' must be a single value", entry.key));
+    return {};
+  }
+
+  /// The mapping under a key; null (`params:` with nothing) is an empty one.
+  const std::vector<YamlNode::Entry>& mapping(const YamlNode::Entry* entry) {
+    static const std::vector<YamlNode::Entry> nothing;
+    if (entry == nullptr || entry->value.is_null()) return nothing;
+    if (entry->value.is_mapping()) return entry->value.entries;
+    error(entry->value.place, fmt::format("'{}' must be a mapping", entry->key), "write `name: value` lines below it");
+    return nothing;
+  }
+
+  bool check_name(const YamlNode::Entry& entry, std::string_view what) {
+    if (is_name(entry.key)) return true;
+    error(entry.place, fmt::format("'{}' cannot be the name of {}", entry.key, what), std::string(name_help));
+    return false;
+  }
+
+  void read_format(const YamlNode& root) {
+    const auto* entry = root.find("atrium");
+    if (entry == nullptr) {
+      error({}, "the format version is missing", "begin the file with `atrium: 1`");
+    } else if (!entry->value.is_scalar() || entry->value.text != "1") {
+      error(entry->value.place, fmt::format("unknown format version '{}'", entry->value.text),
+            "this program reads `atrium: 1`");
+    }
+  }
+
+  void read_seed(const YamlNode::Entry& entry) {
+    const Located text = scalar(entry);
+    if (text.place.line > 0 && !parse_seed(text.text, document_.seed))
+      error(text.place, fmt::format("'{}' is not a seed", text.text), "a whole number from 0 to 18446744073709551615");
+  }
+
+  void read_variables(const YamlNode::Entry* vars) {
+    for (const auto& entry : mapping(vars)) {
+      if (!check_name(entry, "a variable")) continue;
+      if (entry.key == "seed") {
+        error(entry.place, "a variable cannot be named 'seed'", "the run's seed is set by `seed:` and by -s seed=…");
+        continue;
+      }
+      Setting setting = read_setting({entry.key, entry.place}, entry.value, document_.source, findings_);
+      for (const auto& item : setting.value.items) {
+        if (!variable_of(item)) continue;
+        error(setting.place, fmt::format("the variable '{}' refers to another one", entry.key),
+              "a variable's value is written out");
+        setting.broken = true;
+      }
+      document_.variables.push_back(std::move(setting));
+    }
+  }
+
+  void read_pairs(const YamlNode::Entry* section, const std::string& name,
+                  std::vector<std::pair<Located, Located>>& pairs, bool names) {
+    for (const auto& entry : mapping(section)) {
+      if (names && !check_name(entry, "an input")) continue;
+      if (entry.value.is_scalar())
+        pairs.emplace_back(Located{entry.key, entry.place}, Located{entry.value.text, entry.value.place});
+      else
+        error(entry.value.place, fmt::format("'{}' in {} must be a single value", entry.key, name),
+              names ? "write the type of the port, as in `cloud: Cloud`" : "");
+    }
+  }
+
+  void read_nodes(const YamlNode& root) {
+    const auto* section = root.find("nodes");
+    const auto& entries = mapping(section);
+    if (section == nullptr || (entries.empty() && (section->value.is_null() || section->value.is_mapping())))
+      error(section == nullptr ? Place{} : section->place, "the pipeline has no nodes",
+            "add `nodes:` with at least one node");
+    for (const auto& entry : entries) read_node(entry);
+  }
+
+  bool check_id(const YamlNode::Entry& entry) {
+    std::string_view rest = entry.key;
+    bool good = true;
+    while (good) {  // 'shell/translate': an opened sub-pipeline's node in a resolved file
+      const std::size_t slash = std::min(rest.find('/'), rest.size());
+      good = is_name(rest.substr(0, slash));
+      if (slash == rest.size()) break;
+      rest.remove_prefix(slash + 1);
+    }
+    if (!good) error(entry.place, fmt::format("'{}' cannot be the name of a node", entry.key), std::string(name_help));
+    if (entry.key != "inputs") return good;
+    error(entry.place, "a node cannot be named 'inputs'", "`inputs.name` refers to the inputs of a sub-pipeline");
+    return false;
+  }
+
+  void read_node(const YamlNode::Entry& entry) {
+    if (!check_id(entry)) return;
+    DocumentNode node;
+    node.id = {entry.key, entry.place};
+    if (!entry.value.is_mapping()) {
+      error(entry.value.place, fmt::format("the node '{}' must be a mapping", entry.key),
+            "as in `{type: io.read_scan, params: {path: scan.ply}}`");
+      document_.nodes.push_back(std::move(node));
+      return;
+    }
+    const auto* type = entry.value.find("type");
+    const auto* pipeline = entry.value.find("pipeline");
+    const auto what = fmt::format("the node '{}'", entry.key);
+    if (pipeline != nullptr)
+      check_keys(entry.value, {"pipeline", "in", "vars", "type"}, what);
+    else
+      check_keys(entry.value, {"type", "in", "params", "pipeline"}, what);
+    if (type != nullptr && pipeline != nullptr)
+      error(pipeline->place, fmt::format("the node '{}' has a type and a pipeline", entry.key), "keep one of them");
+    else if (type != nullptr)
+      node.type = scalar(*type);
+    else if (pipeline != nullptr)
+      node.pipeline = scalar(*pipeline);
+    else
+      error(entry.place, fmt::format("the node '{}' has no type", entry.key),
+            "`type: module.name`; atrium nodes lists them");
+    for (const auto& port : mapping(entry.value.find("in"))) node.inputs.push_back(read_wiring(port));
+    read_settings(entry.value.find(pipeline != nullptr ? "vars" : "params"),
+                  pipeline != nullptr ? node.variables : node.params);
+    document_.nodes.push_back(std::move(node));
+  }
+
+  void read_settings(const YamlNode::Entry* section, std::vector<Setting>& settings) {
+    for (const auto& entry : mapping(section)) {
+      Setting setting = read_setting({entry.key, entry.place}, entry.value, document_.source, findings_);
+      if (setting.unset) {
+        error(setting.place, fmt::format("'{}' has no value", entry.key), "write a value, or remove the line");
+        setting.broken = true;
+      }
+      settings.push_back(std::move(setting));
+    }
+  }
+
+  Reference reference(const YamlNode& node) const {
+    const std::size_t dot = node.text.find('.');
+    if (dot == std::string::npos) return {node.text, {}, node.place};
+    return {node.text.substr(0, dot), node.text.substr(dot + 1), node.place};
+  }
+
+  Wiring read_wiring(const YamlNode::Entry& entry) {
+    Wiring wiring{{entry.key, entry.place}, {}, entry.value.is_sequence()};
+    const auto add = [&](const YamlNode& node) {
+      if (node.is_scalar()) {
+        wiring.sources.push_back(reference(node));
+        return;
+      }
+      error(node.place, fmt::format("the input '{}' is not wired to a port", entry.key), "as in `cloud: scan.cloud`");
+      wiring.broken = true;
+    };
+    if (!wiring.is_list) add(entry.value);
+    for (const auto& item : entry.value.items) add(item);
+    if (wiring.is_list && wiring.sources.empty() && !wiring.broken) {
+      error(entry.value.place, fmt::format("the input '{}' is wired to an empty list", entry.key));
+      wiring.broken = true;
+    }
+    return wiring;
+  }
+
+  void read_outputs(const YamlNode::Entry* section) {
+    for (const auto& entry : mapping(section)) {
+      if (!check_name(entry, "an output")) continue;
+      if (entry.value.is_scalar())
+        document_.outputs.push_back({{entry.key, entry.place}, reference(entry.value)});
+      else
+        error(entry.value.place, fmt::format("the output '{}' is not a port", entry.key), "as in `mesh: scene.mesh`");
+    }
+  }
+
+  void check_variables() {
+    std::unordered_set<std::string> declared, used;
+    std::vector<std::string> names;
+    for (const auto& variable : document_.variables) {
+      declared.insert(variable.name.text);
+      names.push_back(variable.name.text);
+    }
+    const auto look = [&](std::vector<Setting>& settings) {
+      for (auto& setting : settings) {
+        for (const auto& item : setting.value.items) {
+          const auto name = variable_of(item);
+          if (!name) continue;
+          used.insert(*name);
+          if (declared.contains(*name) || setting.broken) continue;
+          const std::string hint = findings_.suggest(*name, names);
+          error(setting.place, fmt::format("unknown variable '{}'", *name),
+                hint.empty() ? fmt::format("declare it: `vars: {{{}: …}}`", *name) : hint);
+          setting.broken = true;
+        }
+      }
+    };
+    for (auto& node : document_.nodes) {
+      look(node.params);
+      look(node.variables);
+    }
+    for (const auto& variable : document_.variables)
+      if (!used.contains(variable.name.text))
+        error(variable.name.place, fmt::format("nothing uses the variable '{}'", variable.name.text),
+              fmt::format("use it as \"${{{}}}\", or remove it", variable.name.text));
+  }
+
+  Document& document_;
+  Findings& findings_;
+};
+
+}  // namespace
+
+bool parse_seed(std::string_view text, std::uint64_t& seed) {
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  return problem == std::errc{} && end == text.data() + text.size() && !text.empty();
+}
+
+std::unique_ptr<Document> read_document(const std::filesystem::path& path, std::string name, std::size_t order,
+                                        Findings& findings) {
+  auto document = std::make_unique<Document>();
+  document->path = path;
+  document->source = {std::move(name), path.parent_path(), order};
+  const YamlTree tree = read_yaml(path.string());
+  for (const auto& problem : tree.problems)
+    findings.error({&document->source, problem.place}, problem.message, problem.help);
+  if (!tree.root) return nullptr;
+  if (!tree.root->is_mapping()) {
+    findings.error({&document->source, tree.root->place}, "a pipeline file is a mapping of keys to values",
+                   "it begins with `atrium: 1`");
+    return nullptr;
+  }
+  Reader(*document, findings).read(*tree.root);
+  return document;
+}
+
+}  // namespace atrium

@@ -1,0 +1,264 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "graph/api/suggest.hpp"
+#include "graph/pipeline/expansion.hpp"
+
+namespace atrium {
+namespace {
+
+constexpr std::size_t most_nodes = 200'000;
+constexpr int deepest_chain = 32;
+
+std::vector<std::string> names_of(const std::vector<Setting>& settings) {
+  std::vector<std::string> names;
+  for (const auto& setting : settings) names.push_back(setting.name.text);
+  return names;
+}
+
+}  // namespace
+
+SettledValue settle(const Setting& setting, const Scope& scope, const SourceFile& from, const Where& where,
+                    Findings& findings, std::vector<std::string> notes) {
+  SettledValue result;
+  result.notes = std::move(notes);
+  result.value.is_list = setting.value.is_list;
+  result.value.quoted = setting.value.quoted;
+  result.broken = setting.broken;
+  for (const auto& item : setting.value.items) {
+    const auto name = variable_of(item);
+    if (!name) {
+      result.value.items.push_back(without_escapes(item));
+      result.bases.push_back(&from);
+      continue;
+    }
+    const auto found = scope.variables.find(*name);
+    if (found == scope.variables.end()) {
+      // What stands in a file has been reported by the file's own check.
+      if (!setting.broken) findings.error(where, fmt::format("unknown variable '{}'", *name), {}, result.notes);
+      result.broken = true;
+      continue;
+    }
+    const SettledValue& variable = found->second;
+    result.broken = result.broken || variable.broken;
+    if (variable.value.is_list && setting.value.is_list) {
+      findings.error(where, fmt::format("the variable '{}' is a list and stands in a list", *name),
+                     "let it stand for the whole list", variable.notes);
+      result.broken = true;
+    }
+    result.missing.insert(result.missing.end(), variable.missing.begin(), variable.missing.end());
+    result.notes.insert(result.notes.end(), variable.notes.begin(), variable.notes.end());
+    result.value.items.insert(result.value.items.end(), variable.value.items.begin(), variable.value.items.end());
+    result.bases.insert(result.bases.end(), variable.bases.begin(), variable.bases.end());
+    if (!setting.value.is_list) {
+      result.value.is_list = variable.value.is_list;
+      result.value.quoted = variable.value.quoted;
+    }
+  }
+  return result;
+}
+
+void Expander::expand(const Document& root) {
+  std::error_code ignored;
+  by_path_.emplace(std::filesystem::weakly_canonical(root.path, ignored).string(), &root);
+  expansion_.scopes.emplace_back().document = &root;
+  fill(expansion_.scopes.front());
+  report_unknown_nodes();
+}
+
+void Expander::fill(Scope& scope) {
+  settle_variables(scope);
+  for (const auto& node : scope.document->nodes) {
+    if (expansion_.nodes.size() > most_nodes) return;
+    if (scope.members.contains(node.id.text)) continue;
+    if (node.pipeline.text.empty())
+      add_node(scope, node);
+    else
+      open_pipeline(scope, node);
+  }
+}
+
+void Expander::settle_variables(Scope& scope) {
+  const Scope& root = expansion_.scopes.front();
+  const std::string address = scope.prefix.empty() ? "" : scope.prefix.substr(0, scope.prefix.size() - 1);
+  check_given_variables(scope);
+  for (const auto& variable : scope.document->variables) {
+    const std::string& name = variable.name.text;
+    const Setting* given = nullptr;
+    if (scope.node != nullptr)
+      for (const auto& setting : scope.node->variables)
+        if (setting.name.text == name) given = &setting;
+    SettledValue value;
+    if (const ParsedOverride* set = overrides_.take(address, name); set != nullptr) {
+      value = settle(set->setting, root, overrides_.source(), scope.at(variable.place), findings_, {set->note});
+    } else if (given != nullptr) {
+      const Where place = scope.parent->at(given->place);
+      value = settle(*given, *scope.parent, scope.parent->document->source, place, findings_,
+                     {fmt::format("'{}' is set by {}", name, to_string(place))});
+    } else {
+      const Where place = scope.at(variable.place);
+      value = settle(variable, scope, scope.document->source, place, findings_,
+                     {fmt::format("'{}' is set by {}", name, to_string(place))});
+      if (variable.unset && scope.node == nullptr) {
+        value.missing.push_back(name);
+        expansion_.missing_variables.push_back(name);
+      } else if (variable.unset) {
+        findings_.error(scope.parent->at(scope.node->id.place),
+                        fmt::format("the variable '{}' of '{}' has no value", name, scope.node->id.text),
+                        fmt::format("add `vars: {{{}: …}}` to the node", name));
+        value.broken = true;
+      }
+    }
+    scope.variables.emplace(name, std::move(value));
+  }
+}
+
+/// Variables that are set from outside must be there: in the sub-pipeline's file, or the outermost one.
+void Expander::check_given_variables(const Scope& scope) {
+  const std::vector<std::string> names = names_of(scope.document->variables);
+  const auto known = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (scope.node != nullptr)
+    for (const auto& setting : scope.node->variables) {
+      if (known(setting.name.text)) continue;
+      const std::string hint = findings_.suggest(setting.name.text, names);
+      findings_.error(scope.parent->at(setting.name.place),
+                      fmt::format("{} has no variable '{}'", scope.document->source.name, setting.name.text),
+                      hint.empty() && !names.empty() ? "its variables: " + join_words(names) : hint);
+    }
+  const std::string address = scope.prefix.empty() ? "" : scope.prefix.substr(0, scope.prefix.size() - 1);
+  for (const auto* set : overrides_.of(address)) {
+    if (known(set->name) || (scope.node == nullptr && set->name == "seed")) continue;
+    std::vector<std::string> candidates = names;
+    if (scope.node == nullptr) candidates.emplace_back("seed");
+    for (const auto& node : scope.document->nodes)
+      if (node.id.text == set->name && scope.node == nullptr) candidates.push_back(node.id.text + ".PARAMETER");
+    const std::string hint = findings_.suggest(set->name, candidates);
+    const Where where =
+        scope.node == nullptr ? Where{&scope.document->source, {}} : scope.parent->at(scope.node->id.place);
+    findings_.error(where,
+                    scope.node == nullptr
+                        ? fmt::format("unknown variable '{}'", set->name)
+                        : fmt::format("{} has no variable '{}'", scope.document->source.name, set->name),
+                    hint.empty() ? "variables: " + join_words(candidates) : hint, {set->note});
+  }
+}
+
+void Expander::add_node(Scope& scope, const DocumentNode& node) {
+  FlatNode flat;
+  flat.path = scope.prefix + node.id.text;
+  flat.scope = &scope;
+  flat.source = &node;
+  flat.swap = overrides_.take(flat.path, "type");
+  Where where = scope.at(node.type.place);
+  std::string type = node.type.text;
+  std::vector<std::string> notes;
+  if (flat.swap != nullptr) {
+    type = flat.swap->setting.value.items.empty() ? "" : flat.swap->setting.value.items.front();
+    notes.push_back(flat.swap->note);
+    if (node.type.place.line == 0) where = flat.where();
+  }
+  if (!type.empty()) {
+    flat.type = registry_.find(type);
+    if (flat.type == nullptr) report_unknown_type(where, type, notes);
+  }
+  scope.members.emplace(node.id.text, Member{expansion_.nodes.size(), nullptr});
+  expansion_.nodes.push_back(std::move(flat));
+  if (expansion_.nodes.size() == most_nodes + 1)
+    findings_.error(scope.at(node.id.place), fmt::format("the pipeline has more than {} nodes", most_nodes));
+}
+
+void Expander::open_pipeline(Scope& scope, const DocumentNode& node) {
+  const std::string path = scope.prefix + node.id.text;
+  Member member;
+  for (const auto* set : overrides_.of(path)) {
+    if (set->name != "type") continue;
+    findings_.error(scope.at(node.id.place), fmt::format("'{}' is a sub-pipeline, which has no type", path),
+                    fmt::format("its nodes have: {}/NODE.type=TYPE", path), {set->note});
+    overrides_.take(path, "type");
+  }
+  if (const Document* document = document_of(scope, node); document != nullptr) {
+    Scope& inner = expansion_.scopes.emplace_back();
+    inner.document = document;
+    inner.parent = &scope;
+    inner.node = &node;
+    inner.prefix = path + "/";
+    member.scope = &inner;
+  }
+  scope.members.emplace(node.id.text, member);
+  if (member.scope != nullptr) fill(*member.scope);
+}
+
+/// The sub-pipeline's file, read once; null when it cannot be opened or would open itself.
+const Document* Expander::document_of(const Scope& scope, const DocumentNode& node) {
+  const std::filesystem::path path = (scope.document->source.folder / node.pipeline.text).lexically_normal();
+  std::error_code missing;
+  const std::filesystem::path canonical = std::filesystem::canonical(path, missing);
+  const std::string name = (std::filesystem::path(scope.document->source.name).parent_path() / node.pipeline.text)
+                               .lexically_normal()
+                               .string();
+  if (missing || std::filesystem::is_directory(canonical, missing)) {
+    findings_.error(scope.at(node.pipeline.place), fmt::format("no such pipeline file: {}", name),
+                    "the path is relative to the file that it stands in");
+    return nullptr;
+  }
+  std::string chain = name;
+  int depth = 0;
+  for (const Scope* outer = &scope; outer != nullptr; outer = outer->parent, ++depth) {
+    chain = outer->document->source.name + " → " + chain;
+    const bool itself = std::filesystem::equivalent(outer->document->path, canonical, missing);
+    if (!itself && depth < deepest_chain) continue;
+    findings_.error(scope.at(node.pipeline.place), "a sub-pipeline opens itself: " + chain);
+    return nullptr;
+  }
+  const auto [known, fresh] = by_path_.try_emplace(canonical.string(), nullptr);
+  if (fresh) {
+    auto document = read_document(path, name, expansion_.documents.size(), findings_);
+    known->second = document.get();
+    if (document) expansion_.documents.push_back(std::move(document));
+  }
+  return known->second;
+}
+
+void Expander::report_unknown_type(const Where& where, const std::string& type, std::vector<std::string> notes) {
+  if (all_types_.empty()) {
+    std::vector<std::string> problems;
+    for (const auto* known : registry_.all(&problems)) all_types_.push_back(known->type);
+  }
+  const std::size_t dot = type.find('.');
+  const std::string module = type.substr(0, dot);
+  const std::vector<std::string> modules = registry_.modules();
+  std::string message = fmt::format("unknown node type '{}'", type), help = findings_.suggest(type, all_types_);
+  std::vector<std::string> siblings;
+  for (const auto& known : all_types_)
+    if (known.starts_with(module + ".")) siblings.push_back(known);
+  if (dot == std::string::npos) {
+    if (help.empty()) help = "a type is named module.name; atrium nodes lists them";
+  } else if (std::find(modules.begin(), modules.end(), module) == modules.end()) {
+    message += fmt::format(": there is no plugin '{}'", module);
+    if (help.empty())
+      help = fmt::format("modules: {}; plugins are also looked for in ATRIUM_PLUGIN_PATH", join_words(modules, 40));
+  } else if (help.empty()) {
+    help = "types of the module: " + join_words(siblings);
+  }
+  findings_.error(where, std::move(message), std::move(help), std::move(notes));
+}
+
+/// Settings of nodes that are not there.
+void Expander::report_unknown_nodes() {
+  const Document& root = *expansion_.scopes.front().document;
+  std::vector<std::string> paths;
+  for (const auto& node : expansion_.nodes) paths.push_back(node.path);
+  for (const auto& scope : expansion_.scopes)
+    if (!scope.prefix.empty()) paths.push_back(scope.prefix.substr(0, scope.prefix.size() - 1));
+  for (const auto& set : overrides_.all()) {
+    if (set.node.empty() || std::find(paths.begin(), paths.end(), set.node) != paths.end()) continue;
+    const std::string hint = findings_.suggest(set.node, paths);
+    findings_.error({&root.source, {}}, fmt::format("unknown node '{}'", set.node),
+                    hint.empty() ? "nodes: " + join_words(paths) : hint, {set.note});
+  }
+}
+
+}  // namespace atrium

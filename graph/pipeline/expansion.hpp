@@ -1,0 +1,113 @@
+#pragma once
+#include <deque>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "graph/pipeline/document.hpp"
+#include "graph/pipeline/overrides.hpp"
+#include "graph/pipeline/registry.hpp"
+
+namespace atrium {
+
+/// A value whose variables are replaced.
+struct SettledValue {
+  RawValue value;
+  std::vector<const SourceFile*> bases;  ///< per item: the file (or command line) that sets it
+  std::vector<std::string> notes;        ///< where it was set, when that is not where it stands
+  std::vector<std::string> missing;      ///< variables without a value that it needs
+  bool broken = false;                   ///< reported already
+};
+
+struct Scope;
+
+/// What a name in `nodes` stands for: a node or an opened sub-pipeline; neither when it could not be opened.
+struct Member {
+  static constexpr std::size_t none = ~std::size_t{0};
+  std::size_t node = none;
+  Scope* scope = nullptr;
+};
+
+/// One use of a document: the outermost file, or a sub-pipeline node.
+struct Scope {
+  const Document* document = nullptr;
+  Scope* parent = nullptr;
+  const DocumentNode* node = nullptr;  ///< the sub-pipeline node in the parent's document
+  std::string prefix;                  ///< "" or "shell/"
+  std::unordered_map<std::string, SettledValue> variables;
+  std::unordered_map<std::string, Member> members;
+  bool used = false;  ///< something reads one of its outputs
+
+  Where at(Place place) const { return {&document->source, place}; }
+};
+
+struct FlatEdge {
+  Edge from;
+  Where where;       ///< of the reference
+  std::string text;  ///< "planes.planes"
+};
+
+/// A node with its address in the whole pipeline.
+struct FlatNode {
+  std::string path;
+  const Scope* scope = nullptr;
+  const DocumentNode* source = nullptr;
+  const NodeType* type = nullptr;        ///< null when there is none: reported, not checked further
+  const ParsedOverride* swap = nullptr;  ///< the -s that replaced its type
+  std::vector<ParamValue> params;
+  std::vector<std::vector<FlatEdge>> inputs;  ///< per input port
+  bool used = false;                          ///< something reads one of its outputs, or its file exports one
+
+  Where where() const { return scope->at(source->id.place); }
+};
+
+/// The pipeline with its sub-pipelines opened, before and while it is checked.
+struct Expansion {
+  std::vector<std::unique_ptr<Document>> documents;
+  std::deque<Scope> scopes;  ///< the outermost first
+  std::vector<FlatNode> nodes;
+  std::vector<std::string> missing_variables;  ///< of the outermost file, without a value
+  std::vector<PipelineOutput> outputs;
+};
+
+/// Opens sub-pipelines (recursively, each file read once), settles variables, finds node types and applies swaps.
+class Expander {
+ public:
+  Expander(Expansion& expansion, Overrides& overrides, Registry& registry, Findings& findings)
+      : expansion_(expansion), overrides_(overrides), registry_(registry), findings_(findings) {}
+  void expand(const Document& root);
+
+ private:
+  void fill(Scope& scope);
+  void settle_variables(Scope& scope);
+  void add_node(Scope& scope, const DocumentNode& node);
+  void open_pipeline(Scope& scope, const DocumentNode& node);
+  const Document* document_of(const Scope& scope, const DocumentNode& node);
+  void check_given_variables(const Scope& scope);
+  void report_unknown_type(const Where& where, const std::string& type, std::vector<std::string> notes);
+  void report_unknown_nodes();
+
+  Expansion& expansion_;
+  Overrides& overrides_;
+  Registry& registry_;
+  Findings& findings_;
+  std::unordered_map<std::string, const Document*> by_path_;
+  std::vector<std::string> all_types_;
+};
+
+/// Replaces variables and escapes in a value that stands in `scope`. `from` is what relative paths in it are relative
+/// to, `where` and `notes` are for what is wrong with it.
+SettledValue settle(const Setting& setting, const Scope& scope, const SourceFile& from, const Where& where,
+                    Findings& findings, std::vector<std::string> notes = {});
+
+/// Reads the parameters of every node: bounds, units, files that must exist, files that are written twice.
+void settle_params(Expansion& expansion, Overrides& overrides, Findings& findings);
+
+/// Joins the nodes: ports, their types, what is not wired or not used. Fills inputs and outputs.
+void wire(Expansion& expansion, Findings& findings);
+
+/// The nodes in an order in which they can run (ties by the order of the file). Cycles are reported with their path.
+std::vector<std::size_t> run_order(const Expansion& expansion, Findings& findings);
+
+}  // namespace atrium

@@ -1,0 +1,74 @@
+#include "graph/pipeline/overrides.hpp"
+
+#include <fmt/format.h>
+
+namespace atrium {
+
+Overrides::Overrides(const std::vector<Override>& given, const SourceFile& root, Findings& findings) {
+  std::error_code ignored;
+  source_ = {"command line", std::filesystem::current_path(ignored), 0};
+  overrides_.reserve(given.size());  // by_node_ points into it
+  for (const auto& item : given) add(item, root, findings);
+}
+
+void Overrides::add(const Override& given, const SourceFile& root, Findings& findings) {
+  const std::string origin = given.origin.empty() ? "-s " + given.text : given.origin;
+  const auto fail = [&](std::string message, std::string help) {
+    findings.error({&root, {}}, std::move(message), std::move(help), {"set by " + origin});
+  };
+  const std::size_t equals = given.text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    fail(fmt::format("'{}' sets nothing", given.text), "write NODE.PARAMETER=VALUE, NODE.type=TYPE or VARIABLE=VALUE");
+    return;
+  }
+  const std::string target = given.text.substr(0, equals), value = given.text.substr(equals + 1);
+  const std::size_t dot = target.rfind('.');
+  ParsedOverride parsed;
+  if (dot != std::string::npos) parsed.node = target.substr(0, dot);
+  parsed.name = dot == std::string::npos ? target : target.substr(dot + 1);
+  parsed.note = "set by " + origin;
+  YamlNode node;
+  node.kind = YamlNode::Kind::scalar;
+  node.text = value;
+  if (value.starts_with('[') || value.starts_with('"') || value.starts_with('\'')) {
+    const YamlTree tree = parse_yaml(value);
+    if (!tree.root || !tree.problems.empty()) {
+      fail(fmt::format("'{}' cannot be read: {}", value, tree.problems.front().message), tree.problems.front().help);
+      return;
+    }
+    node = *tree.root;
+  }
+  if (value.empty()) {
+    fail(fmt::format("'{}' is set to nothing", target), "write a value after '='; an empty text is '\"\"'");
+    return;
+  }
+  const SourceFile nowhere{root.name, {}, root.order};
+  node.place = {};
+  for (auto& item : node.items) item.place = {};
+  parsed.setting = read_setting({parsed.name, {}}, node, nowhere, findings);
+  auto& same_node = by_node_[parsed.node];
+  for (const auto* earlier : same_node) {
+    if (earlier->name != parsed.name) continue;
+    fail(fmt::format("'{}' is set twice", target), fmt::format("it is {} already", earlier->note));
+    return;
+  }
+  overrides_.push_back(std::move(parsed));
+  same_node.push_back(&overrides_.back());
+}
+
+const std::vector<ParsedOverride*>& Overrides::of(const std::string& node) const {
+  static const std::vector<ParsedOverride*> none;
+  const auto found = by_node_.find(node);
+  return found == by_node_.end() ? none : found->second;
+}
+
+ParsedOverride* Overrides::take(const std::string& node, const std::string& name) {
+  for (auto* item : of(node)) {
+    if (item->name != name) continue;
+    item->used = true;
+    return item;
+  }
+  return nullptr;
+}
+
+}  // namespace atrium

@@ -1,0 +1,218 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "graph/api/suggest.hpp"
+#include "graph/pipeline/expansion.hpp"
+
+namespace atrium {
+namespace {
+
+/// Files that the run itself writes into its folder.
+constexpr std::string_view reserved_files[] = {"resolved.yaml", "manifest.json", "trace.json"};
+
+class ParamReader {
+ public:
+  ParamReader(Expansion& expansion, Overrides& overrides, Findings& findings)
+      : expansion_(expansion), overrides_(overrides), findings_(findings) {}
+
+  void read(FlatNode& node) {
+    node_ = &node;
+    for (const auto& param : node.type->params) node.params.push_back(param.initial);
+    std::vector<bool> set(node.params.size(), false);
+    for (const auto& setting : node.source->params) {
+      const std::size_t index = find(setting.name.text);
+      if (index == node.params.size()) {
+        report_unknown(setting);
+      } else if (overridden(setting.name.text) == nullptr) {
+        const Where where = node.scope->at(setting.place);
+        apply(index, settle(setting, *node.scope, node.scope->document->source, where, findings_), where);
+        set[index] = true;
+      }
+    }
+    read_overrides(set);
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      const ParamInfo& info = node.type->params[i];
+      if (set[i]) continue;
+      if (is_required(info))
+        findings_.error(
+            node.where(),
+            fmt::format("the parameter '{}' of '{}' ({}) is missing", info.name, node.source->id.text, node.type->type),
+            describe_param(info), notes());
+      else
+        place_path(i, node.where(), {}, {&node.scope->document->source});
+    }
+  }
+
+  void check_output_files() {
+    for (auto it = written_.begin(); it != written_.end(); ++it) {
+      const auto next = std::next(it);
+      if (next == written_.end()) break;
+      const std::string& path = it->first;
+      // The map's order puts "a/b" after "a", with names like "a-x" between them at most.
+      for (auto inner = written_.lower_bound(path + "/"); inner != written_.end(); ++inner) {
+        if (!inner->first.starts_with(path + "/")) break;
+        findings_.error(inner->second.where, fmt::format("'{}' writes '{}', but '{}' writes a file '{}'",
+                                                         inner->second.node, inner->first, it->second.node, path));
+      }
+    }
+  }
+
+ private:
+  struct Written {
+    std::string node;
+    Where where;
+  };
+
+  std::size_t find(const std::string& name) const {
+    const auto& params = node_->type->params;
+    const auto same = [&](const ParamInfo& info) { return info.name == name; };
+    return static_cast<std::size_t>(std::find_if(params.begin(), params.end(), same) - params.begin());
+  }
+
+  const ParsedOverride* overridden(const std::string& name) const {
+    for (const auto* set : overrides_.of(node_->path))
+      if (set->name == name) return set;
+    return nullptr;
+  }
+
+  std::vector<std::string> notes() const {
+    return node_->swap == nullptr ? std::vector<std::string>{} : std::vector{node_->swap->note};
+  }
+
+  std::pair<std::string, std::string> unknown(const std::string& name) {
+    std::vector<std::string> names;
+    for (const auto& info : node_->type->params) names.push_back(info.name);
+    std::string help = findings_.suggest(name, names);
+    if (!help.empty())
+      help += fmt::format(" ({})", describe_param(node_->type->params[find(nearest(name, names))]));
+    else if (names.empty())
+      help = fmt::format("{} has no parameters", node_->type->type);
+    else
+      help = fmt::format("parameters of {}: {}", node_->type->type, join_words(names, 40));
+    return {fmt::format("unknown parameter '{}' of '{}' ({})", name, node_->source->id.text, node_->type->type), help};
+  }
+
+  void report_unknown(const Setting& setting) {
+    const Where where = node_->scope->at(setting.name.place);
+    if (node_->swap != nullptr && node_->type->type != node_->source->type.text) {
+      findings_.warning(
+          where,
+          fmt::format("the parameter '{}' is ignored: {} has none of that name", setting.name.text, node_->type->type),
+          {}, notes());
+      return;
+    }
+    auto [message, help] = unknown(setting.name.text);
+    findings_.error(where, std::move(message), std::move(help));
+  }
+
+  void read_overrides(std::vector<bool>& set) {
+    for (const auto* override_ : overrides_.of(node_->path)) {
+      if (override_->name == "type") continue;
+      Where where = node_->where();
+      for (const auto& setting : node_->source->params)
+        if (setting.name.text == override_->name) where.place = setting.place;
+      const std::size_t index = find(override_->name);
+      if (index == node_->params.size()) {
+        auto [message, help] = unknown(override_->name);
+        findings_.error(where, std::move(message), std::move(help), {override_->note});
+        continue;
+      }
+      apply(index,
+            settle(override_->setting, expansion_.scopes.front(), overrides_.source(), where, findings_,
+                   {override_->note}),
+            where);
+      set[index] = true;
+    }
+  }
+
+  void apply(std::size_t index, const SettledValue& value, const Where& where) {
+    if (value.broken || !value.missing.empty()) return;
+    const ParamInfo& info = node_->type->params[index];
+    try {
+      node_->params[index] = parse_param(info, value.value);
+    } catch (const Error& error) {
+      std::vector<std::string> all = value.notes;
+      if (node_->swap != nullptr) all.push_back(node_->swap->note);
+      findings_.error(where, error.what(), error.help(), std::move(all));
+      return;
+    }
+    place_path(index, where, value.notes, value.bases);
+  }
+
+  void place_path(std::size_t index, const Where& where, const std::vector<std::string>& origin,
+                  const std::vector<const SourceFile*>& bases) {
+    const ParamInfo& info = node_->type->params[index];
+    ParamValue& value = node_->params[index];
+    if (info.kind == ParamKind::input_path) {
+      input_path(std::get<std::string>(value), info, where, origin, *bases.front());
+    } else if (info.kind == ParamKind::output_path) {
+      output_path(std::get<std::string>(value), info, where, origin);
+    } else if (info.kind == ParamKind::input_paths) {
+      auto& paths = std::get<std::vector<std::string>>(value);
+      for (std::size_t i = 0; i < paths.size(); ++i)
+        input_path(paths[i], info, where, origin, *bases[std::min(i, bases.size() - 1)]);
+    }
+  }
+
+  void input_path(std::string& path, const ParamInfo& info, const Where& where, const std::vector<std::string>& origin,
+                  const SourceFile& base) {
+    if (path.empty()) {
+      findings_.error(where, fmt::format("'{}' is an empty path", info.name), {}, origin);
+      return;
+    }
+    const std::filesystem::path full = (base.folder / path).lexically_normal();
+    path = full.string();
+    std::error_code ignored;
+    if (std::filesystem::exists(full, ignored)) return;
+    std::vector<std::string> siblings;
+    const bool folder = std::filesystem::is_directory(full.parent_path(), ignored);
+    for (const auto& entry : std::filesystem::directory_iterator(full.parent_path(), ignored))
+      if (siblings.size() < 1000) siblings.push_back(entry.path().filename().string());
+    std::sort(siblings.begin(), siblings.end());
+    findings_.error(where, fmt::format("no such file: {}", full.string()),
+                    folder ? findings_.suggest(full.filename().string(), siblings)
+                           : fmt::format("there is no folder {}", full.parent_path().string()),
+                    origin);
+  }
+
+  void output_path(std::string& path, const ParamInfo& info, const Where& where,
+                   const std::vector<std::string>& origin) {
+    const std::filesystem::path relative = std::filesystem::path(path).lexically_normal();
+    const bool escapes = relative.is_absolute() || relative.empty() || *relative.begin() == ".." || relative == "." ||
+                         !relative.has_filename();
+    if (escapes) {
+      findings_.error(where, fmt::format("'{}' cannot be '{}'", info.name, path),
+                      "a file within the run's folder: a relative path without '..'", origin);
+      return;
+    }
+    path = (std::filesystem::path(node_->scope->prefix) / relative).string();
+    if (std::find(std::begin(reserved_files), std::end(reserved_files), path) != std::end(reserved_files)) {
+      findings_.error(where, fmt::format("'{}' is a file that the run itself writes", path), "take another name",
+                      origin);
+      return;
+    }
+    const auto [other, fresh] = written_.try_emplace(path, Written{node_->path, where});
+    if (!fresh)
+      findings_.error(where, fmt::format("'{}' and '{}' both write '{}'", other->second.node, node_->path, path),
+                      "give each its own path", origin);
+  }
+
+  Expansion& expansion_;
+  Overrides& overrides_;
+  Findings& findings_;
+  FlatNode* node_ = nullptr;
+  std::map<std::string, Written> written_;
+};
+
+}  // namespace
+
+void settle_params(Expansion& expansion, Overrides& overrides, Findings& findings) {
+  ParamReader reader(expansion, overrides, findings);
+  for (auto& node : expansion.nodes)
+    if (node.type != nullptr) reader.read(node);
+  reader.check_output_files();
+}
+
+}  // namespace atrium

@@ -1,0 +1,327 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "graph/api/suggest.hpp"
+#include "graph/pipeline/expansion.hpp"
+
+namespace atrium {
+namespace {
+
+/// What a reference leads to.
+struct Endpoint {
+  enum class Kind { unknown, node, outside } kind = Kind::unknown;  ///< unknown: reported, or not to be checked
+  Edge edge;
+  std::string type;  ///< of the port
+  std::vector<std::string> notes;
+};
+
+std::vector<std::string> names_of(const std::vector<PortInfo>& ports) {
+  std::vector<std::string> names;
+  for (const auto& port : ports) names.push_back(port.name);
+  return names;
+}
+
+std::size_t find_port(const std::vector<PortInfo>& ports, const std::string& name) {
+  const auto same = [&](const PortInfo& port) { return port.name == name; };
+  return static_cast<std::size_t>(std::find_if(ports.begin(), ports.end(), same) - ports.begin());
+}
+
+std::string text_of(const Reference& reference) {
+  return reference.port.empty() ? reference.node : reference.node + "." + reference.port;
+}
+
+std::vector<std::string> swap_notes(const FlatNode& node) {
+  return node.swap == nullptr ? std::vector<std::string>{} : std::vector{node.swap->note};
+}
+
+class Wirer {
+ public:
+  Wirer(Expansion& expansion, Findings& findings) : expansion_(expansion), findings_(findings) {}
+
+  void wire() {
+    for (auto& node : expansion_.nodes) wire_node(node);
+    for (auto& scope : expansion_.scopes) {
+      if (scope.node != nullptr) check_pipeline_inputs(scope);
+      export_outputs(scope);
+    }
+  }
+
+  void check_use() {
+    for (const auto& node : expansion_.nodes)
+      if (node.type != nullptr && !node.used && !node.type->sink)
+        findings_.error(node.where(),
+                        fmt::format("nothing uses the node '{}' ({})", node.source->id.text, node.type->type),
+                        "wire one of its outputs, list it under `outputs:`, or remove the node", swap_notes(node));
+    for (const auto& scope : expansion_.scopes)
+      if (scope.node != nullptr && !scope.used && !has_sink(scope))
+        findings_.error(scope.parent->at(scope.node->id.place),
+                        fmt::format("nothing uses the sub-pipeline '{}'", scope.node->id.text),
+                        "wire one of its outputs, list it under `outputs:`, or remove it");
+    for (const auto& scope : expansion_.scopes) check_inputs_used(scope);
+  }
+
+ private:
+  void wire_node(FlatNode& node) {
+    if (node.type == nullptr) {
+      for (const auto& wiring : node.source->inputs)  // the references can be checked all the same
+        for (const auto& source : wiring.sources) resolve(*node.scope, source, true);
+      return;
+    }
+    const auto& ports = node.type->inputs;
+    node.inputs.resize(ports.size());
+    std::vector<bool> mentioned(ports.size(), false);
+    for (const auto& wiring : node.source->inputs) {
+      const std::size_t index = find_port(ports, wiring.port.text);
+      if (index == ports.size()) {
+        report_unknown_input(node, wiring.port, names_of(ports));
+        for (const auto& source : wiring.sources) resolve(*node.scope, source, true);
+        continue;
+      }
+      mentioned[index] = true;
+      wire_port(node, index, wiring);
+    }
+    for (std::size_t i = 0; i < ports.size(); ++i)
+      if (!mentioned[i] && !ports[i].optional)
+        findings_.error(node.where(),
+                        fmt::format("the input '{}' of '{}' ({}) is not wired", ports[i].name, node.source->id.text,
+                                    node.type->type),
+                        fmt::format("it takes {}{}: add `in: {{{}: node.port}}`", ports[i].repeated ? "a list of " : "",
+                                    ports[i].type, ports[i].name),
+                        swap_notes(node));
+  }
+
+  void report_unknown_input(const FlatNode& node, const Located& port, const std::vector<std::string>& names) {
+    const std::string hint = findings_.suggest(port.text, names);
+    findings_.error(node.scope->at(port.place),
+                    fmt::format("unknown input '{}' of '{}' ({})", port.text, node.source->id.text, node.type->type),
+                    !hint.empty()   ? hint
+                    : names.empty() ? fmt::format("{} has no inputs", node.type->type)
+                                    : fmt::format("inputs of {}: {}", node.type->type, join_words(names)),
+                    swap_notes(node));
+  }
+
+  void wire_port(FlatNode& node, std::size_t index, const Wiring& wiring) {
+    const PortInfo& port = node.type->inputs[index];
+    if (wiring.is_list && !port.repeated)
+      findings_.error(node.scope->at(wiring.port.place),
+                      fmt::format("the input '{}' of '{}' takes one edge, not a list", port.name, node.source->id.text),
+                      {}, swap_notes(node));
+    for (const auto& source : wiring.sources) {
+      Endpoint from = resolve(*node.scope, source, true);
+      if (from.kind == Endpoint::Kind::unknown) continue;
+      const Where where = node.scope->at(source.place);
+      if (from.type != port.type) {
+        auto notes = std::move(from.notes);
+        for (auto& note : swap_notes(node)) notes.push_back(std::move(note));
+        report_type(where, source, from.type, fmt::format("'{}' of '{}'", port.name, node.source->id.text), port.type,
+                    std::move(notes));
+      } else if (from.kind == Endpoint::Kind::node) {
+        node.inputs[index].push_back({from.edge, where, text_of(source)});
+      }
+    }
+  }
+
+  void report_type(const Where& where, const Reference& source, const std::string& type, const std::string& target,
+                   const std::string& wanted, std::vector<std::string> notes) {
+    findings_.error(where,
+                    fmt::format("'{}' is a {}, but the input {} takes a {}", text_of(source), type, target, wanted), {},
+                    std::move(notes));
+  }
+
+  /// Follows a reference to the node that makes the value, through sub-pipelines. Only the first step is reported: the
+  /// steps inside other files are checked where they stand.
+  Endpoint resolve(const Scope& start, const Reference& first, bool report) {
+    const Scope* scope = &start;
+    const Reference* reference = &first;
+    const std::size_t limit = 2 * expansion_.scopes.size() + 2;
+    Endpoint result;
+    for (std::size_t step = 0; step < limit; ++step) {
+      const bool loud = report && step == 0;
+      if (reference->node == "inputs") {
+        const Located* type = input_type(*scope, *reference, loud);
+        if (type == nullptr) return result;
+        if (result.type.empty()) result.type = type->text;
+        if (scope->parent == nullptr) {
+          result.kind = Endpoint::Kind::outside;
+          return result;
+        }
+        reference = binding(*scope, reference->port);
+        scope = scope->parent;
+        if (reference == nullptr) return result;
+        continue;
+      }
+      const auto member = scope->members.find(reference->node);
+      if (member == scope->members.end()) {
+        if (loud) report_unknown_node(*scope, *reference);
+        return result;
+      }
+      if (member->second.node != Member::none) return at_node(*scope, *reference, member->second.node, result, loud);
+      if (member->second.scope == nullptr) return result;
+      Scope& inner = *member->second.scope;
+      inner.used = true;
+      reference = pipeline_output(*scope, inner, *reference, loud);
+      if (reference == nullptr) return result;
+      scope = &inner;
+    }
+    findings_.error(start.at(first.place),
+                    fmt::format("'{}' leads through sub-pipelines back to itself", text_of(first)));
+    return {};
+  }
+
+  Endpoint at_node(const Scope& scope, const Reference& reference, std::size_t index, Endpoint result, bool loud) {
+    FlatNode& node = expansion_.nodes[index];
+    node.used = true;
+    if (node.type == nullptr) return result;
+    const auto& outputs = node.type->outputs;
+    const std::size_t port = find_port(outputs, reference.port);
+    if (port == outputs.size()) {
+      if (loud)
+        report_unknown_output(scope, reference, fmt::format("'{}' ({})", reference.node, node.type->type),
+                              names_of(outputs), swap_notes(node));
+      return result;
+    }
+    result.kind = Endpoint::Kind::node;
+    result.edge = {index, port};
+    if (result.type.empty()) result.type = outputs[port].type;
+    result.notes = swap_notes(node);
+    return result;
+  }
+
+  void report_unknown_output(const Scope& scope, const Reference& reference, const std::string& of,
+                             const std::vector<std::string>& names, std::vector<std::string> notes) {
+    std::string help;
+    if (reference.port.empty() && names.size() == 1)
+      help = fmt::format("did you mean '{}.{}'?", reference.node, names[0]);
+    else if (!reference.port.empty())
+      help = findings_.suggest(reference.port, names);
+    if (help.empty()) help = names.empty() ? "it has no outputs" : "its outputs: " + join_words(names);
+    findings_.error(scope.at(reference.place),
+                    reference.port.empty() ? fmt::format("'{}' names no output of {}", reference.node, of)
+                                           : fmt::format("unknown output '{}' of {}", reference.port, of),
+                    std::move(help), std::move(notes));
+  }
+
+  void report_unknown_node(const Scope& scope, const Reference& reference) {
+    std::vector<std::string> names;
+    for (const auto& node : scope.document->nodes) names.push_back(node.id.text);
+    if (!scope.document->inputs.empty()) names.emplace_back("inputs");
+    std::string help = findings_.suggest(reference.node, names);
+    const std::string outer = reference.node.substr(0, reference.node.find('/'));
+    if (const auto member = scope.members.find(outer); member != scope.members.end() && member->second.scope != nullptr)
+      help = fmt::format("only the outputs of a sub-pipeline can be wired: '{}.OUTPUT'", outer);
+    else if (help.empty() && variable_of(text_of(reference)))
+      help = "variables stand for values, not for edges";
+    findings_.error(scope.at(reference.place), fmt::format("unknown node '{}'", reference.node), std::move(help));
+  }
+
+  /// The declared type of an input of a sub-pipeline.
+  const Located* input_type(const Scope& scope, const Reference& reference, bool loud) {
+    std::vector<std::string> names;
+    for (const auto& [name, type] : scope.document->inputs) {
+      if (name.text == reference.port) return &type;
+      names.push_back(name.text);
+    }
+    if (!loud) return nullptr;
+    const std::string hint = findings_.suggest(reference.port, names);
+    findings_.error(scope.at(reference.place), fmt::format("unknown input '{}' of the pipeline", reference.port),
+                    !hint.empty()   ? hint
+                    : names.empty() ? "declare it: `inputs: {name: Type}`"
+                                    : "its inputs: " + join_words(names));
+    return nullptr;
+  }
+
+  static const Reference* binding(const Scope& scope, const std::string& input) {
+    for (const auto& wiring : scope.node->inputs)
+      if (wiring.port.text == input) return wiring.sources.size() == 1 ? &wiring.sources.front() : nullptr;
+    return nullptr;
+  }
+
+  const Reference* pipeline_output(const Scope& scope, const Scope& inner, const Reference& reference, bool loud) {
+    std::vector<std::string> names;
+    for (const auto& output : inner.document->outputs) {
+      if (output.name.text == reference.port) return &output.source;
+      names.push_back(output.name.text);
+    }
+    if (loud)
+      report_unknown_output(scope, reference, fmt::format("'{}' ({})", reference.node, inner.document->source.name),
+                            names, {});
+    return nullptr;
+  }
+
+  void check_pipeline_inputs(const Scope& scope) {
+    const auto& declared = scope.document->inputs;
+    std::vector<std::string> names;
+    for (const auto& [name, type] : declared) names.push_back(name.text);
+    for (const auto& wiring : scope.node->inputs) {
+      const auto place = std::find(names.begin(), names.end(), wiring.port.text);
+      if (place == names.end()) {
+        const std::string hint = findings_.suggest(wiring.port.text, names);
+        findings_.error(scope.parent->at(wiring.port.place),
+                        fmt::format("{} has no input '{}'", scope.document->source.name, wiring.port.text),
+                        hint.empty() && !names.empty() ? "its inputs: " + join_words(names) : hint);
+      }
+      if (wiring.is_list)
+        findings_.error(scope.parent->at(wiring.port.place),
+                        fmt::format("the input '{}' of a sub-pipeline takes one edge, not a list", wiring.port.text));
+      for (const auto& source : wiring.sources) {
+        Endpoint from = resolve(*scope.parent, source, true);
+        if (place == names.end() || from.kind == Endpoint::Kind::unknown) continue;
+        const Located& wanted = declared[static_cast<std::size_t>(place - names.begin())].second;
+        if (from.type != wanted.text)
+          report_type(scope.parent->at(source.place), source, from.type,
+                      fmt::format("'{}' of '{}'", wiring.port.text, scope.node->id.text), wanted.text,
+                      std::move(from.notes));
+      }
+    }
+    for (const auto& [name, type] : declared) {
+      const auto same = [&, &text = name.text](const Wiring& wiring) { return wiring.port.text == text; };
+      if (std::none_of(scope.node->inputs.begin(), scope.node->inputs.end(), same))
+        findings_.error(scope.parent->at(scope.node->id.place),
+                        fmt::format("the input '{}' of '{}' ({}) is not wired", name.text, scope.node->id.text,
+                                    scope.document->source.name),
+                        fmt::format("it takes {}: add `in: {{{}: node.port}}`", type.text, name.text));
+    }
+  }
+
+  void export_outputs(const Scope& scope) {
+    for (const auto& output : scope.document->outputs) {
+      const Endpoint from = resolve(scope, output.source, true);
+      if (scope.parent == nullptr && from.kind == Endpoint::Kind::node)
+        expansion_.outputs.push_back({output.name.text, from.edge});
+    }
+  }
+
+  bool has_sink(const Scope& scope) const {
+    return std::any_of(expansion_.nodes.begin(), expansion_.nodes.end(), [&](const FlatNode& node) {
+      return node.path.starts_with(scope.prefix) && (node.type == nullptr || node.type->sink);
+    });
+  }
+
+  void check_inputs_used(const Scope& scope) {
+    for (const auto& [name, type] : scope.document->inputs) {
+      const auto reads = [&, &text = name.text](const Reference& r) { return r.node == "inputs" && r.port == text; };
+      bool used = false;
+      for (const auto& node : scope.document->nodes)
+        for (const auto& wiring : node.inputs)
+          used = used || std::any_of(wiring.sources.begin(), wiring.sources.end(), reads);
+      for (const auto& output : scope.document->outputs) used = used || reads(output.source);
+      if (!used)
+        findings_.error(scope.at(name.place), fmt::format("nothing uses the input '{}'", name.text),
+                        fmt::format("wire it as 'inputs.{}', or remove it", name.text));
+    }
+  }
+
+  Expansion& expansion_;
+  Findings& findings_;
+};
+
+}  // namespace
+
+void wire(Expansion& expansion, Findings& findings) {
+  Wirer wirer(expansion, findings);
+  wirer.wire();
+  wirer.check_use();
+}
+
+}  // namespace atrium
