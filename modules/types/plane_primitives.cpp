@@ -2,13 +2,28 @@
 
 namespace atrium {
 
+namespace {
+
+std::vector<Eigen::Vector3f> turned(const std::vector<Eigen::Vector3f>& column, const Eigen::Matrix3f& rotation) {
+  std::vector<Eigen::Vector3f> result;
+  result.reserve(column.size());
+  for (const auto& v : column) result.emplace_back(rotation * v);
+  return result;
+}
+
+}  // namespace
+
 Cloud transformed(const Cloud& cloud, const Transform& transform) {
-  Cloud result = cloud;
-  result.origin = transform.rotation * cloud.origin + transform.translation;
   const Eigen::Matrix3f turn = transform.rotation.cast<float>();
-  for (auto& p : result.points) p = turn * p;
-  for (auto& n : result.normals) n = turn * n;
-  for (auto& s : result.sensors) s = turn * s;
+  Cloud result;
+  result.origin = transform.rotation * cloud.origin + transform.translation;
+  result.points = turned(cloud.points, turn);
+  result.normals = turned(cloud.normals, turn);
+  result.colours = cloud.colours;
+  result.labels = cloud.labels;
+  result.intensities = cloud.intensities;
+  result.source = cloud.source;
+  result.sensors = turned(cloud.sensors, turn);
   return result;
 }
 

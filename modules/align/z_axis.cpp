@@ -1,0 +1,60 @@
+#include "modules/align/z_axis.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace atrium::align {
+namespace {
+
+/// The plane's normal on the side from which its points were seen: that of their mean normal.
+Eigen::Vector3d seen_normal(const PlanePrimitive& primitive, const Cloud& cloud) {
+  const Eigen::Vector3d& normal = primitive.plane.normal;
+  if (!cloud.has_normals()) return normal;
+  double agreement = 0;
+  for (const auto i : primitive.inliers) agreement += cloud.normals[i].cast<double>().dot(normal);
+  return agreement < 0 ? Eigen::Vector3d(-normal) : normal;
+}
+
+/// The list U or D of Algorithm 1: how many planes, and the one with most points.
+struct Side {
+  std::size_t planes = 0;
+  std::size_t points = 0;
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+
+  void add(const PlanePrimitive& primitive, const Eigen::Vector3d& seen) {
+    ++planes;
+    if (primitive.inliers.size() <= points) return;
+    points = primitive.inliers.size();
+    normal = seen;
+  }
+};
+
+}  // namespace
+
+ZAxis::Out ZAxis::run(const In& in, const Params& params, Context& context) {
+  Side up, down;
+  for (const auto& primitive : in.planes->primitives) {
+    if (primitive.inliers.empty() || std::abs(primitive.plane.normal.z()) < params.min_vertical) continue;
+    const Eigen::Vector3d normal = seen_normal(primitive, *in.planes->cloud);
+    (normal.z() > 0 ? up : down).add(primitive, normal);
+  }
+  if (up.planes + down.planes == 0) {
+    throw Error(fmt::format("none of the {} planes is roughly horizontal (|c| of its normal at least {})",
+                            in.planes->primitives.size(), params.min_vertical),
+                "the z axis of the scan must point roughly upwards; turn the scan, or lower min_vertical, or leave the "
+                "frame as it is with align.none");
+  }
+  const bool upwards = up.planes > down.planes;
+  const Eigen::Vector3d normal = (upwards ? up : down).normal;
+  const Eigen::Vector3d target = upwards ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d(-Eigen::Vector3d::UnitZ());
+  Transform turn;
+  turn.rotation = Eigen::Quaterniond::FromTwoVectors(normal, target).normalized().toRotationMatrix();
+  const double tilt = std::acos(std::min(1.0, normal.dot(target))) * 180.0 / std::numbers::pi;
+  context.info(fmt::format("{} of {} planes decide; tilt {:.2f} deg", upwards ? up.planes : down.planes,
+                           in.planes->primitives.size(), tilt));
+  return {transformed(*in.planes, turn), chained(in.transform ? *in.transform : Transform{}, turn)};
+}
+
+}  // namespace atrium::align

@@ -1,0 +1,30 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/adjacency.hpp"
+#include "modules/types/plane_meshes.hpp"
+#include "modules/types/structure.hpp"
+
+namespace atrium::refine {
+
+/// Hands the meshes on: the swap that switches vertex translation or mesh clipping off.
+struct None {
+  static constexpr std::string_view type = "refine.none";
+  static constexpr std::string_view summary = "Leaves the meshes as they are.";
+  struct In {
+    Input<PlaneMeshes> meshes;
+    OptionalInput<Adjacency> adjacency;
+    OptionalInput<Structure> structure;
+  };
+  struct Out {
+    SharedOutput<PlaneMeshes> meshes;
+  };
+  struct Params {};
+  static constexpr auto inputs =
+      std::tuple{port(&In::meshes, "meshes", "Meshes."), port(&In::adjacency, "adjacency", "Not used."),
+                 port(&In::structure, "structure", "Not used.")};
+  static constexpr auto outputs = std::tuple{port(&Out::meshes, "meshes", "The same meshes.")};
+  static constexpr auto params = std::tuple{};
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::refine

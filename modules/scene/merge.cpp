@@ -1,0 +1,83 @@
+#include "modules/scene/merge.hpp"
+
+#include <algorithm>
+
+namespace atrium::scene {
+namespace {
+
+Colour colour_of(SurfaceClass surface) {
+  switch (surface) {
+    case SurfaceClass::wall:
+      return {214, 205, 190};
+    case SurfaceClass::floor:
+      return {146, 116, 88};
+    case SurfaceClass::ceiling:
+      return {236, 240, 244};
+    default:
+      return {120, 144, 168};
+  }
+}
+
+void append(Mesh& mesh, const PlaneMesh& polygon, bool colours) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), polygon.corners.begin(), polygon.corners.end());
+  if (colours) mesh.colours.resize(mesh.vertices.size(), colour_of(polygon.surface));
+  for (std::uint32_t i = 2; i < polygon.corners.size(); ++i) {
+    mesh.triangles.push_back({first, first + i - 1, first + i});
+    mesh.classes.push_back(polygon.surface);
+    mesh.storeys.push_back(polygon.storey);
+    mesh.primitives.push_back(polygon.primitive);
+  }
+}
+
+Mesh structure_of(const PlaneMeshes& meshes, bool colours, bool ceilings) {
+  Mesh result;
+  result.origin = meshes.origin;
+  for (const auto& polygon : meshes.meshes)
+    if (ceilings || polygon.surface != SurfaceClass::ceiling) append(result, polygon, colours);
+  return result;
+}
+
+/// The objects with every column that the structure has, so that both can be one mesh.
+Mesh objects_of(const Mesh& objects, bool colours) {
+  Mesh result = objects;
+  result.classes.assign(result.triangles.size(), SurfaceClass::object);
+  result.storeys.assign(result.triangles.size(), -1);
+  result.primitives.assign(result.triangles.size(), -1);
+  if (colours && result.colours.empty()) result.colours.assign(result.vertices.size(), colour_of(SurfaceClass::object));
+  if (!colours) result.colours.clear();
+  return result;
+}
+
+template <class T>
+void extend(std::vector<T>& column, const std::vector<T>& more) {
+  column.insert(column.end(), more.begin(), more.end());
+}
+
+Mesh joined(Mesh a, const Mesh& b) {
+  const auto first = static_cast<std::uint32_t>(a.vertices.size());
+  if (a.vertices.empty()) a.origin = b.origin;
+  const Eigen::Vector3d shift = b.origin - a.origin;
+  for (const auto& v : b.vertices) a.vertices.emplace_back(v + shift);
+  for (const auto& t : b.triangles) a.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  extend(a.colours, b.colours);
+  extend(a.classes, b.classes);
+  extend(a.storeys, b.storeys);
+  extend(a.primitives, b.primitives);
+  return a;
+}
+
+}  // namespace
+
+Merge::Out Merge::run(const In& in, const Params& params, Context& /*context*/) {
+  const Transform back = params.frame == Frame::input && in.transform ? inverse(*in.transform) : Transform{};
+  const bool colours = params.class_colours || (in.objects && !in.objects->colours.empty());
+  Out out;
+  out.structure = transformed(structure_of(*in.meshes, colours, true), back);
+  if (in.objects) out.objects = transformed(objects_of(*in.objects, colours), back);
+  out.scene = joined(out.structure, out.objects);
+  out.scene_without_ceiling = joined(transformed(structure_of(*in.meshes, colours, false), back), out.objects);
+  return out;
+}
+
+}  // namespace atrium::scene

@@ -1,0 +1,51 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/mesh.hpp"
+#include "modules/types/plane_meshes.hpp"
+
+namespace atrium::scene {
+
+enum class Frame { input, aligned };
+
+/// Puts the parts together (paper, "Overview", figure 2 (g) and (h)): structure alone, objects alone, all, and all but
+/// the ceilings.
+///
+/// Polygons are triangulated as fans (they are convex); vertices are shared within a polygon only. Each triangle keeps
+/// its class, storey and primitive; those of objects have class object, storey −1 and primitive −1. The meshes are in
+/// the frame of the input of the pipeline, moved back by the inverse of `transform`, unless `frame` is aligned. Without
+/// `transform` both are the same. Vertices are coloured by class unless `class_colours` is off; objects keep colours of
+/// their own.
+struct Merge {
+  static constexpr std::string_view type = "scene.merge";
+  static constexpr std::string_view summary = "Assembles structure and objects, with and without ceilings.";
+  struct In {
+    Input<PlaneMeshes> meshes;
+    OptionalInput<Mesh> objects;
+    OptionalInput<Transform> transform;
+  };
+  struct Out {
+    Mesh structure;
+    Mesh objects;
+    Mesh scene;
+    Mesh scene_without_ceiling;
+  };
+  struct Params {
+    Frame frame = Frame::input;
+    bool class_colours = true;
+  };
+  static constexpr auto inputs =
+      std::tuple{port(&In::meshes, "meshes", "Walls, floors and ceilings: convex polygons."),
+                 port(&In::objects, "objects", "What is not structure, in the same frame."),
+                 port(&In::transform, "transform", "From the input frame to that of the meshes.")};
+  static constexpr auto outputs = std::tuple{
+      port(&Out::structure, "structure", "Walls, floors and ceilings."), port(&Out::objects, "objects", "The objects."),
+      port(&Out::scene, "scene", "Structure and objects."),
+      port(&Out::scene_without_ceiling, "scene_without_ceiling", "The same without ceilings, to look into.")};
+  static constexpr auto params = std::tuple{
+      param(&Params::frame, "frame", {{"input", Frame::input}, {"aligned", Frame::aligned}},
+            "input: where the scan was, to the millimetre; aligned: z up, walls along x and y."),
+      param(&Params::class_colours, "class_colours", "Colour the structure's vertices by class, for viewers.")};
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::scene
