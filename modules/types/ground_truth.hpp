@@ -11,7 +11,9 @@
 
 namespace atrium {
 
-/// One true surface of a simulated building: an outer ring and holes (openings), all in one plane.
+/// One true surface of a simulated building: an outer ring and holes (openings), all in one plane. A door's hole meets
+/// the floor, so it is a notch of the outline; a window's is a hole. Furniture that stands before a surface takes
+/// nothing away.
 struct TrueFace {
   static constexpr auto members() {
     return std::tuple{&TrueFace::surface, &TrueFace::storey,  &TrueFace::room,
@@ -23,17 +25,23 @@ struct TrueFace {
   Plane plane;                                      ///< normal into the room
   std::vector<Eigen::Vector3d> outline;             ///< counter-clockwise seen from the room
   std::vector<std::vector<Eigen::Vector3d>> holes;  ///< clockwise seen from the room
+
+  double area() const;  ///< without the holes, square metres
 };
 
-/// A door, window or slab opening.
+/// A door, window or slab opening. Its reveal (jambs, lintel, sill) belongs to no room and is no structural face.
 struct TrueOpening {
   static constexpr auto members() {
-    return std::tuple{&TrueOpening::kind, &TrueOpening::room_a, &TrueOpening::room_b, &TrueOpening::outline};
+    return std::tuple{&TrueOpening::kind,   &TrueOpening::room_a,    &TrueOpening::room_b, &TrueOpening::face_a,
+                      &TrueOpening::face_b, &TrueOpening::thickness, &TrueOpening::outline};
   }
   std::string kind;          ///< "door", "window", "slab"
   std::int32_t room_a = -1;  ///< the rooms that it joins; -1: outside
   std::int32_t room_b = -1;
-  std::vector<Eigen::Vector3d> outline;  ///< on room_a's side
+  std::int32_t face_a = -1;  ///< the faces that it pierces; -1: none
+  std::int32_t face_b = -1;
+  double thickness = 0;  ///< of the wall or slab that it pierces: from room_a's side along minus face_a's normal
+  std::vector<Eigen::Vector3d> outline;  ///< on room_a's side, counter-clockwise seen from room_a
 };
 
 struct TrueRoom {
@@ -56,5 +64,11 @@ struct GroundTruth {
   std::vector<TrueRoom> rooms;
   Mesh mesh;  ///< the faces, triangulated with their holes left out; `primitives` is the index of the face
 };
+
+/// Area vector of a planar ring: its length is the ring's area, it points to the side that sees it counter-clockwise.
+Eigen::Vector3d area_vector(const std::vector<Eigen::Vector3d>& ring);
+
+/// The truth in the transform's target frame: the origin moves, local coordinates only turn.
+GroundTruth transformed(const GroundTruth& truth, const Transform& transform);
 
 }  // namespace atrium

@@ -1,0 +1,44 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/simulated_scene.hpp"
+
+namespace atrium::synth {
+
+/// A furnished flat of four rooms: living room, kitchen, bedroom, study; three doors between them, a shut entrance
+/// door, a French window and four windows. Its inner walls are two faces each, the wall's thickness apart, and meet in
+/// T's that do not line up. Ceilings differ: living room and study have the given height, the kitchen is one step
+/// higher, the bedroom one lower. The outer corner of the living room's floor is (0, 0, 0).
+struct Flat {
+  static constexpr std::string_view type = "synth.flat";
+  static constexpr std::string_view summary = "A furnished flat of four rooms with exact ground truth.";
+  struct In {};
+  struct Out {
+    SimulatedScene scene;
+  };
+  struct Params {
+    double width = 10.2;
+    double depth = 8.0;
+    double ceiling_height = 2.6;
+    double ceiling_step = 0.1;
+    double inner_wall = 0.12;
+    double outer_wall = 0.3;
+    double furniture = 1.0;
+  };
+  static constexpr auto inputs = std::tuple{};
+  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The flat: z up, metres.")};
+  static constexpr auto params = std::tuple{
+      param(&Params::width, "width", metres, within(7, 30), "Inner size along x, inner walls included."),
+      param(&Params::depth, "depth", metres, within(6, 30), "Inner size along y."),
+      param(&Params::ceiling_height, "ceiling_height", metres, within(2.4, 6), "Floor to ceiling in the living room."),
+      param(&Params::ceiling_step, "ceiling_step", metres, within(0, 0.15),
+            "How much higher the kitchen's and lower the bedroom's ceiling is."),
+      param(&Params::inner_wall, "inner_wall", metres, within(0.02, 0.5), "Thickness of the walls between rooms."),
+      param(&Params::outer_wall, "outer_wall", metres, within(0.02, 1),
+            "Depth of the reveals of windows and entrance."),
+      param(&Params::furniture, "furniture", unitless, within(0, 3),
+            "How densely it is furnished: 0 empty, 1 an ordinary home."),
+  };
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::synth

@@ -1,0 +1,14 @@
+#pragma once
+#include "graph/api/random.hpp"
+#include "modules/synth/building.hpp"
+
+namespace atrium::synth {
+
+enum class RoomUse { living, kitchen, bedroom, study, hall };
+
+/// Puts furniture into a room: beds, tables with legs, chairs, shelves, wardrobes and so on, each where it fits (apart
+/// from others, doors kept free, nothing tall before windows), large pieces first with their back to a wall. `density`
+/// 1 is an ordinary home; 0 leaves the room empty; 2 tries to place every piece twice. `ceiling`: clear height, metres.
+void furnish(Building& building, int room, RoomUse use, double density, double ceiling, Random& random);
+
+}  // namespace atrium::synth

@@ -1,0 +1,31 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+namespace atrium::synth {
+
+using Ring2 = std::vector<Eigen::Vector2d>;
+
+/// A rectangle on the floor plan, turned by `yaw` (radians).
+struct Footprint {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  Eigen::Vector2d half = Eigen::Vector2d::Zero();  ///< half width and depth
+  double yaw = 0;
+  double height = 0;  ///< how tall the thing is that stands on it
+
+  Ring2 corners() const;
+  double distance(const Eigen::Vector2d& p) const;  ///< 0 inside
+};
+
+/// Whether the rectangles come nearer to each other than `gap` (separating axes of both, grown by gap).
+bool overlap(const Footprint& a, const Footprint& b, double gap);
+bool inside(const Ring2& ring, const Eigen::Vector2d& p);
+/// Whether the rectangle lies in the ring.
+bool inside(const Ring2& ring, const Footprint& footprint);
+double distance_to_border(const Ring2& ring, const Eigen::Vector2d& p);
+
+/// Up to `count` places for a scanner: the first has most room around it, each further one is as far as may be from
+/// those before. Deterministic; at least one unless the ring is thinner than the 0.2 m raster.
+Ring2 scanner_places(const Ring2& room, const std::vector<Footprint>& furniture, std::size_t count);
+
+}  // namespace atrium::synth
