@@ -2,7 +2,9 @@
 #
 # Builds libatrium_<module>.so from the node types <name>: each is a pair of files, <name>.hpp and <name>.cpp, whose header
 # holds the struct <Name> (CamelCase of the file's name) in the namespace <ns> (default: atrium::<module>), with
-# type = "<module>.<name>". Adding a node type is adding the pair of files and its name to NODES.
+# type = "<module>.<name>". Installed to <libdir>/atrium, where the program finds it; during development ATRIUM_PLUGIN_PATH
+# can name the build's folder lib/atrium. Adding a node type is adding the pair of files and its name to NODES.
+include(GNUInstallDirs)
 set(ATRIUM_PLUGIN_TEMPLATE_DIR ${CMAKE_CURRENT_LIST_DIR})
 function(atrium_add_plugin module)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAMESPACE" "NODES;SOURCES;LIBRARIES")
@@ -30,5 +32,7 @@ function(atrium_add_plugin module)
   add_library(atrium_${module} SHARED ${CMAKE_CURRENT_BINARY_DIR}/plugin.cpp ${sources})
   target_include_directories(atrium_${module} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(atrium_${module} PUBLIC atrium::graph atrium::types ${arg_LIBRARIES})
-  set_target_properties(atrium_${module} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/atrium)
+  set_target_properties(atrium_${module} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/atrium
+                                                    INSTALL_RPATH "$ORIGIN;$ORIGIN/.." INSTALL_RPATH_USE_LINK_PATH ON)
+  install(TARGETS atrium_${module} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/atrium)
 endfunction()

@@ -55,7 +55,7 @@ RunFolder::RunFolder(fs::path folder, const Pipeline& pipeline)
       started_(fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))) {
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (error) throw Error("cannot make the folder " + folder_.string() + ": " + error.message());
+  if (error) throw FolderError("cannot make the folder " + folder_.string() + ": " + error.message());
   lock();
   try {
     remove_earlier_run();
@@ -71,18 +71,18 @@ RunFolder::~RunFolder() { ::close(lock_); }
 
 void RunFolder::lock() {
   lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0) throw Error("cannot open the folder " + folder_.string() + ": " + std::strerror(errno));
+  if (lock_ < 0) throw FolderError("cannot open the folder " + folder_.string() + ": " + std::strerror(errno));
   if (::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(lock_);
-  throw Error("another run is writing into " + folder_.string(), "choose another folder with --out");
+  throw FolderError("another run is writing into " + folder_.string(), "choose another folder with --out");
 }
 
 void RunFolder::remove_earlier_run() {
   if (fs::is_empty(folder_)) return;
   const auto manifest = read_manifest(folder_);
   if (manifest.is_null())
-    throw Error(folder_.string() + " is not empty and is not the folder of a run",
-                "choose another folder with --out, or empty it");
+    throw FolderError(folder_.string() + " is not empty and is not the folder of a run",
+                      "choose another folder with --out, or empty it");
   const auto needed = files_read(pipeline_);
   std::error_code ignored;
   const auto nodes = manifest.find("nodes");

@@ -12,7 +12,8 @@ namespace atrium {
 /// afterwards is of this run. Locked against a second run at the same time.
 class RunFolder {
  public:
-  /// Makes the folder; writes resolved.yaml and a manifest.json that says that the run is not finished. Throws Error.
+  /// Makes the folder; writes resolved.yaml and a manifest.json that says that the run is not finished. Throws
+  /// FolderError.
   RunFolder(std::filesystem::path folder, const Pipeline& pipeline);
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;

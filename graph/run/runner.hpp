@@ -72,6 +72,12 @@ struct RunResult {
   std::uint64_t peak_memory = 0;  ///< of the process, bytes
 };
 
+/// The run's folder cannot be used.
+class FolderError : public Error {
+ public:
+  using Error::Error;
+};
+
 /// What tells a person how far a run is. Called from any thread.
 class ProgressSink {
  public:
@@ -87,7 +93,8 @@ class ProgressSink {
 /// Runs a checked pipeline: independent nodes side by side on one oneTBB arena, which the nodes' own loops share; a
 /// value is freed as soon as its last reader is done. A node that throws fails: what depends on it is skipped, the rest
 /// is run. Writes resolved.yaml, manifest.json and trace.json into the run's folder (also when a node fails or the run
-/// is cancelled). Results do not depend on the number of threads. Throws Error if the folder cannot be used.
+/// is cancelled). Results do not depend on the number of threads. Throws FolderError, and Error if the
+/// pipeline is not one (nodes in a circle).
 RunResult run_pipeline(const Pipeline& pipeline, const RunOptions& options, ProgressSink& progress);
 
 /// The seed of a node's random streams.

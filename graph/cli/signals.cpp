@@ -1,0 +1,43 @@
+#include "graph/cli/signals.hpp"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <string_view>
+
+namespace atrium::cli {
+namespace {
+
+std::atomic<bool> cancel = false;
+std::atomic<int> first_signal = 0;
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+
+// Only what is safe in a signal handler: lock-free atomics, write, _exit.
+void handle(int signal) {
+  if (first_signal.exchange(signal) != 0) ::_exit(128 + signal);
+  cancel = true;
+  constexpr std::string_view text = "\natrium: ending; what is done is kept (once more: end at once)\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
+void install(void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+}  // namespace
+
+CancelOnSignal::CancelOnSignal() {
+  cancel = false;
+  first_signal = 0;
+  install(handle);
+}
+CancelOnSignal::~CancelOnSignal() { install(SIG_DFL); }
+
+const std::atomic<bool>* CancelOnSignal::flag() const { return &cancel; }
+int CancelOnSignal::exit_code() const { return 128 + first_signal.load(); }
+
+}  // namespace atrium::cli

@@ -1,0 +1,2 @@
+find_package(rapidcheck REQUIRED)
+list(APPEND libraries rapidcheck nlohmann_json::nlohmann_json)

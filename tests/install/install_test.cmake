@@ -1,0 +1,59 @@
+# Installs the build, then lives outside of the tree: builds a plugin against the installed package, runs it, adds a node to
+# it by one pair of files and one word, runs that, and offers a plugin of another framework.
+#   cmake -DBUILD=<build folder> -DWORK=<scratch folder> -DLAUNCHER=<ccache or nothing> -P install_test.cmake
+set(here ${CMAKE_CURRENT_LIST_DIR})
+set(prefix ${WORK}/prefix)
+set(program ${prefix}/bin/atrium)
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+
+# call(<expected exit code> <text that stdout and stderr must hold> <command>...)
+function(call code text)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE result OUTPUT_VARIABLE output
+                  ERROR_VARIABLE output)
+  if(NOT result STREQUAL code OR NOT output MATCHES "${text}")
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "${command}\nreturned ${result}, expected ${code} with \"${text}\":\n${output}")
+  endif()
+endfunction()
+function(build source)
+  cmake_path(GET source FILENAME name)
+  call(0 "" ${CMAKE_COMMAND} -S ${source} -B ${WORK}/build-${name} -DCMAKE_PREFIX_PATH=${prefix}
+       -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+  call(0 "" ${CMAKE_COMMAND} --build ${WORK}/build-${name})
+endfunction()
+
+unset(ENV{ATRIUM_PLUGIN_PATH})
+call(0 "" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+call(0 "align.none" ${program} nodes align.none)
+foreach(file include/atrium/graph/api/node.hpp include/atrium/modules/types/cloud.hpp share/atrium/pipelines/paper.yaml)
+  if(NOT EXISTS ${prefix}/${file})
+    message(FATAL_ERROR "${file} is not installed")
+  endif()
+endforeach()
+
+file(COPY ${here}/example_plugin DESTINATION ${WORK})
+build(${WORK}/example_plugin)
+set(ENV{ATRIUM_PLUGIN_PATH} ${WORK}/build-example_plugin/lib/atrium)
+call(0 "points +125" ${program} run ${here}/one_node.yaml --out ${WORK}/run-one)
+call(3 "example.extent" ${program} run ${here}/two_nodes.yaml --out ${WORK}/run-two)
+
+file(COPY ${here}/second_node/ DESTINATION ${WORK}/example_plugin)
+file(READ ${WORK}/example_plugin/CMakeLists.txt text)
+string(REPLACE "NODES lattice" "NODES lattice extent" text "${text}")
+file(WRITE ${WORK}/example_plugin/CMakeLists.txt "${text}")
+build(${WORK}/example_plugin)
+call(0 "size.extent.z +0.8 m" ${program} run ${here}/two_nodes.yaml --out ${WORK}/run-two)
+
+file(COPY ${here}/wrong_plugin DESTINATION ${WORK})
+build(${WORK}/wrong_plugin)
+set(ENV{ATRIUM_PLUGIN_PATH} ${WORK}/build-wrong_plugin)
+call(5 "another framework.*rebuild it" ${program} run ${here}/wrong.yaml --out ${WORK}/run-wrong)
+if(EXISTS ${WORK}/run-wrong)
+  message(FATAL_ERROR "a run that could not begin has made its folder")
+endif()
+
+call(0 "" ${CMAKE_COMMAND} --install ${WORK}/build-example_plugin --prefix ${prefix})
+unset(ENV{ATRIUM_PLUGIN_PATH})
+call(0 "points +125" ${program} run ${here}/one_node.yaml --out ${WORK}/run-installed)
+file(REMOVE_RECURSE ${WORK})
