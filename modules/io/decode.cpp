@@ -1,0 +1,214 @@
+#include "modules/io/decode.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "graph/api/error.hpp"
+#include "modules/io/decode_columns.hpp"
+
+namespace atrium::io {
+namespace {
+
+constexpr Role axes[3] = {Role::x, Role::y, Role::z};
+
+void check_count(const RawGeometry& geometry) {
+  if (geometry.count > std::numeric_limits<std::uint32_t>::max())
+    throw Error(fmt::format("{}: {} points; the most that can be handled are {}", geometry.path, geometry.count,
+                            std::numeric_limits<std::uint32_t>::max()));
+  if (geometry.count < 3)
+    throw Error(fmt::format("{}: {}", geometry.path,
+                            geometry.count == 0 ? "no points" : fmt::format("only {} points", geometry.count)),
+                "three points are the least that define a plane");
+}
+
+bool is_good(double v) { return std::abs(v) <= largest_coordinate; }  // false for NaN
+
+/// Runs of the columns x, y, z as doubles: scaled, without the origin.
+class Positions {
+ public:
+  Positions(const RawGeometry& geometry, double scale, const Eigen::Vector3d& origin)
+      : geometry_(geometry), scale_(scale), origin_(origin) {}
+
+  /// Calls store(index, x, y, z) for the good points of [begin, end) and bad(index) for the others.
+  template <class Store, class Bad>
+  void read(std::size_t begin, std::size_t end, Store&& store, Bad&& bad) const {
+    constexpr std::size_t run = 512;
+    double v[3][run];
+    for (std::size_t i = begin; i < end; i += run) {
+      const std::size_t n = std::min(run, end - i);
+      for (int a = 0; a < 3; ++a) {
+        read_numbers(geometry_.column(axes[a]), i, n, v[a]);
+        for (std::size_t k = 0; k < n; ++k) v[a][k] *= scale_;
+      }
+      for (std::size_t k = 0; k < n; ++k) {
+        if (is_good(v[0][k]) && is_good(v[1][k]) && is_good(v[2][k]))
+          store(i + k, v[0][k] - origin_.x(), v[1][k] - origin_.y(), v[2][k] - origin_.z());
+        else
+          bad(i + k);
+      }
+    }
+  }
+
+ private:
+  const RawGeometry& geometry_;
+  double scale_;
+  Eigen::Vector3d origin_;
+};
+
+/// Indices of the points without finite coordinates, ascending; fills `points`, zero at those.
+std::vector<std::uint32_t> decode_points(const RawGeometry& geometry, double scale, Cloud& cloud,
+                                         const Context& context) {
+  constexpr std::size_t chunk = 65536;
+  cloud.points.resize(geometry.count);
+  const Positions positions(geometry, scale, cloud.origin);
+  std::vector<std::vector<std::uint32_t>> bad((geometry.count + chunk - 1) / chunk);
+  context.parallel_chunks(geometry.count, chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    positions.read(
+        begin, end,
+        [&](std::size_t i, double x, double y, double z) { cloud.points[i] = Eigen::Vector3d(x, y, z).cast<float>(); },
+        [&](std::size_t i) {
+          cloud.points[i].setZero();
+          bad[c].push_back(static_cast<std::uint32_t>(i));
+        });
+  });
+  std::vector<std::uint32_t> all;
+  for (const auto& some : bad) all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+Cloud without(const Cloud& cloud, const std::vector<std::uint32_t>& dropped) {
+  std::vector<std::uint32_t> kept;
+  kept.reserve(cloud.size() - dropped.size());
+  auto next = dropped.begin();
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    if (next != dropped.end() && *next == i)
+      ++next;
+    else
+      kept.push_back(i);
+  }
+  return select(cloud, kept);
+}
+
+Eigen::Vector3d good_position(const RawGeometry& geometry, double scale, std::size_t i, bool& good) {
+  Eigen::Vector3d p;
+  for (int a = 0; a < 3; ++a) read_numbers(geometry.column(axes[a]), i, 1, &p[a]);
+  p *= scale;
+  good = is_good(p.x()) && is_good(p.y()) && is_good(p.z());
+  return p;
+}
+
+}  // namespace
+
+Eigen::Vector3d choose_origin(const RawGeometry& geometry, double scale) {
+  constexpr std::size_t wanted = 2001;
+  std::vector<double> sample[3];
+  const auto take = [&](std::size_t i) {
+    bool good = false;
+    const Eigen::Vector3d p = good_position(geometry, scale, i, good);
+    if (!good) return false;
+    for (int a = 0; a < 3; ++a) sample[a].push_back(p[a]);
+    return true;
+  };
+  const std::size_t step = std::max<std::size_t>(1, geometry.count / wanted);
+  for (std::size_t i = 0; i < geometry.count; i += step) take(i);
+  for (std::size_t i = 0; sample[0].empty() && i < geometry.count; ++i) take(i);
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  if (sample[0].empty()) return origin;
+  for (int a = 0; a < 3; ++a) {
+    const auto middle = sample[a].begin() + static_cast<std::ptrdiff_t>(sample[a].size() / 2);
+    std::nth_element(sample[a].begin(), middle, sample[a].end());
+    if (std::abs(*middle) > largest_local_coordinate) origin[a] = std::floor(*middle);
+  }
+  return origin;
+}
+
+Cloud decode_cloud(const RawGeometry& geometry, double scale, const Context& context) {
+  check_count(geometry);
+  Cloud cloud;
+  cloud.origin = choose_origin(geometry, scale);
+  const std::vector<std::uint32_t> dropped = decode_points(geometry, scale, cloud, context);
+  decode_normals(geometry, dropped, cloud.normals, context);
+  decode_colours(geometry, cloud.colours, context);
+  decode_intensities(geometry, cloud.intensities, context);
+  decode_labels(geometry, cloud.labels, context);
+  if (dropped.empty()) return cloud;
+  const std::size_t left = cloud.size() - dropped.size();
+  if (left == 0)
+    throw Error(fmt::format("{}: none of the {} points has finite coordinates", geometry.path, cloud.size()));
+  if (left < 3)
+    throw Error(fmt::format("{}: only {} of {} points have finite coordinates", geometry.path, left, cloud.size()),
+                "three points are the least that define a plane");
+  context.warn(fmt::format("{}: {} of {} points dropped: coordinates not finite, or beyond 10⁹ m", geometry.path,
+                           dropped.size(), cloud.size()));
+  return without(cloud, dropped);
+}
+
+Mesh decode_mesh(const RawGeometry& geometry, double scale, const Context& context) {
+  Mesh mesh;
+  mesh.origin = choose_origin(geometry, scale);
+  mesh.vertices.resize(geometry.count, Eigen::Vector3d::Zero());
+  std::vector<std::uint8_t> good(geometry.count, 1);
+  const Positions positions(geometry, scale, mesh.origin);
+  context.parallel_for(geometry.count, [&](std::size_t begin, std::size_t end) {
+    positions.read(
+        begin, end,
+        [&](std::size_t i, double x, double y, double z) {
+          mesh.vertices[i] = {x, y, z};
+        },
+        [&](std::size_t i) { good[i] = 0; });
+  });
+  decode_colours(geometry, mesh.colours, context);
+
+  // Bad vertices go, and the triangles on them.
+  std::vector<std::uint32_t> place(geometry.count);
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; i < geometry.count; ++i) {
+    place[i] = kept;
+    if (good[i] == 0) continue;
+    mesh.vertices[kept] = mesh.vertices[i];
+    if (!mesh.colours.empty()) mesh.colours[kept] = mesh.colours[i];
+    ++kept;
+  }
+  mesh.vertices.resize(kept);
+  if (!mesh.colours.empty()) mesh.colours.resize(kept);
+  mesh.triangles.reserve(geometry.triangles.size());
+  for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
+    const auto& [a, b, c] = geometry.triangles[t];
+    if (good[a] == 0 || good[b] == 0 || good[c] == 0) continue;
+    mesh.triangles.push_back({place[a], place[b], place[c]});
+    if (!geometry.classes.empty()) mesh.classes.push_back(static_cast<SurfaceClass>(geometry.classes[t]));
+    if (!geometry.storeys.empty()) mesh.storeys.push_back(geometry.storeys[t]);
+    if (!geometry.primitives.empty()) mesh.primitives.push_back(geometry.primitives[t]);
+  }
+  if (kept < geometry.count)
+    context.warn(
+        fmt::format("{}: {} of {} vertices and {} of {} triangles dropped: coordinates not finite, or beyond 10⁹ m",
+                    geometry.path, geometry.count - kept, geometry.count,
+                    geometry.triangles.size() - mesh.triangles.size(), geometry.triangles.size()));
+  return mesh;
+}
+
+Bounds3 bounds_of(const std::vector<Eigen::Vector3f>& points, const Context& context) {
+  if (points.empty()) return {};
+  constexpr std::size_t chunk = 262144;
+  std::vector<Bounds3> some((points.size() + chunk - 1) / chunk);
+  context.parallel_chunks(points.size(), chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    Bounds3 b{points[begin], points[begin]};
+    for (std::size_t i = begin; i < end; ++i) {
+      b.low = b.low.cwiseMin(points[i]);
+      b.high = b.high.cwiseMax(points[i]);
+    }
+    some[c] = b;
+  });
+  Bounds3 all = some.front();
+  for (const auto& b : some) {
+    all.low = all.low.cwiseMin(b.low);
+    all.high = all.high.cwiseMax(b.high);
+  }
+  return all;
+}
+
+}  // namespace atrium::io

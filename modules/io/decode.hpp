@@ -1,0 +1,37 @@
+#pragma once
+#include "graph/api/context.hpp"
+#include "modules/io/raw_geometry.hpp"
+#include "modules/types/cloud.hpp"
+#include "modules/types/mesh.hpp"
+
+namespace atrium::io {
+
+/// A coordinate further than this from zero, after scaling, is taken for a broken one, like NaN and infinity, metres.
+inline constexpr double largest_coordinate = 1e9;
+/// On an axis whose median coordinate is further than this from zero a cloud gets an origin, metres: float32 resolves
+/// 0.06 mm there.
+inline constexpr double largest_local_coordinate = 1000.0;
+
+/// Where the origin of a geometry is put: 0 on each axis on which the median of (a sample of) the coordinates is within
+/// largest_local_coordinate; else that median, rounded down to a whole metre. So files with small coordinates keep
+/// their numbers, georeferenced ones keep their millimetres, and stray points far away do not matter.
+Eigen::Vector3d choose_origin(const RawGeometry& geometry, double scale);
+
+/// The points with the columns that the file has, times `scale`. Points with a coordinate that is not finite are
+/// dropped and counted in a warning. Normals are brought to unit length; if any is zero or not finite, the column is
+/// left out and a warning says so. Colours of 16 bits or of 0 … 1 become 8 bits. Sensors are not set. Error if fewer
+/// than three points are left.
+Cloud decode_cloud(const RawGeometry& geometry, double scale, const Context& context);
+
+/// The triangles over their vertices in double. Triangles on vertices that are not finite are dropped, with a warning.
+/// No error if nothing is left.
+Mesh decode_mesh(const RawGeometry& geometry, double scale, const Context& context);
+
+/// The true bounds of a cloud's points, without its origin.
+struct Bounds3 {
+  Eigen::Vector3f low = Eigen::Vector3f::Zero(), high = Eigen::Vector3f::Zero();
+  Eigen::Vector3f extent() const { return high - low; }
+};
+Bounds3 bounds_of(const std::vector<Eigen::Vector3f>& points, const Context& context);
+
+}  // namespace atrium::io

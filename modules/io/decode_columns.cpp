@@ -1,0 +1,176 @@
+#include "modules/io/decode_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace atrium::io {
+namespace {
+
+constexpr std::size_t chunk = 65536;
+constexpr std::size_t run = 512;
+constexpr Role colour_roles[3] = {Role::red, Role::green, Role::blue};
+
+/// Calls work(i, value) for each number of the column in [begin, end).
+template <class F>
+void each_number(const Column& column, std::size_t begin, std::size_t end, F&& work) {
+  double v[run];
+  for (std::size_t i = begin; i < end; i += run) {
+    const std::size_t n = std::min(run, end - i);
+    read_numbers(column, i, n, v);
+    for (std::size_t k = 0; k < n; ++k) work(i + k, v[k]);
+  }
+}
+
+/// What colour values have to be multiplied by to lie in 0 … 255.
+double colour_factor(const RawGeometry& geometry, const Context& context) {
+  std::vector<double> largest((geometry.count + chunk - 1) / chunk, 0.0);
+  bool floating = false;
+  for (const Role role : colour_roles) {
+    const Column& column = geometry.column(role);
+    floating = floating || is_floating(column.type);
+    context.parallel_chunks(geometry.count, chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
+      each_number(column, begin, end, [&](std::size_t, double v) { largest[c] = v > largest[c] ? v : largest[c]; });
+    });
+  }
+  const double most = largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
+  if (floating && most <= 1.0) return 255.0;
+  return most <= 255.0 ? 1.0 : 255.0 / 65535.0;
+}
+
+std::uint8_t to_byte(double v) {
+  if (!(v > 0)) return 0;  // NaN too
+  return static_cast<std::uint8_t>(std::min(255.0, std::floor(v + 0.5)));
+}
+
+void decode_bytes(const RawGeometry& geometry, std::vector<Colour>& colours, const Context& context) {
+  context.parallel_for(
+      geometry.count,
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t a = 0; a < 3; ++a) {
+          const Column& column = geometry.column(colour_roles[a]);
+          const std::byte* from = column.data + begin * column.stride;
+          for (std::size_t i = begin; i < end; ++i, from += column.stride)
+            colours[i][a] = std::to_integer<std::uint8_t>(*from);
+        }
+      },
+      chunk);
+}
+
+void decode_packed(const RawGeometry& geometry, std::vector<Colour>& colours, const Context& context) {
+  context.parallel_for(
+      geometry.count,
+      [&](std::size_t begin, std::size_t end) {
+        each_number(geometry.column(Role::packed_colour), begin, end, [&](std::size_t i, double v) {
+          const auto bits = static_cast<std::uint32_t>(v);
+          colours[i] = {static_cast<std::uint8_t>(bits >> 16U), static_cast<std::uint8_t>(bits >> 8U),
+                        static_cast<std::uint8_t>(bits)};
+        });
+      },
+      chunk);
+}
+
+}  // namespace
+
+void read_numbers(const Column& column, std::size_t first, std::size_t count, double* to) {
+  const std::byte* from = column.data + first * column.stride;
+  const std::size_t stride = column.stride;
+  with_scalar(column.type, [&](auto t) {
+    using T = decltype(t);
+    if (column.swapped) {
+      for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<double>(load<T>(from + i * stride, true));
+    } else {
+      for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<double>(load<T>(from + i * stride));
+    }
+  });
+}
+
+void decode_normals(const RawGeometry& geometry, const std::vector<std::uint32_t>& ignored,
+                    std::vector<Eigen::Vector3f>& normals, const Context& context) {
+  if (!geometry.column(Role::nx) || !geometry.column(Role::ny) || !geometry.column(Role::nz)) return;
+  normals.resize(geometry.count);
+  std::vector<std::size_t> bad((geometry.count + chunk - 1) / chunk);
+  context.parallel_chunks(geometry.count, chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    double v[3][run];
+    for (std::size_t i = begin; i < end; i += run) {
+      const std::size_t n = std::min(run, end - i);
+      read_numbers(geometry.column(Role::nx), i, n, v[0]);
+      read_numbers(geometry.column(Role::ny), i, n, v[1]);
+      read_numbers(geometry.column(Role::nz), i, n, v[2]);
+      for (std::size_t k = 0; k < n; ++k) {
+        const double length = std::sqrt(v[0][k] * v[0][k] + v[1][k] * v[1][k] + v[2][k] * v[2][k]);
+        const bool good = length > 1e-6 && length < 1e6;
+        const double factor = good ? 1.0 / length : 0.0;
+        bad[c] += good ? 0 : 1;
+        if (good)
+          normals[i + k] = Eigen::Vector3d(v[0][k] * factor, v[1][k] * factor, v[2][k] * factor).cast<float>();
+        else
+          normals[i + k].setZero();
+      }
+    }
+  });
+  std::size_t broken = 0;
+  for (const auto b : bad) broken += b;
+  for (const auto i : ignored) broken -= normals[i].isZero(0) ? 1 : 0;
+  if (broken == 0) return;
+  normals = {};
+  context.warn(fmt::format("{}: the normals of {} points are zero or not finite: the file's normals are left out",
+                           geometry.path, broken));
+}
+
+void decode_colours(const RawGeometry& geometry, std::vector<Colour>& colours, const Context& context) {
+  const bool separate = geometry.column(Role::red) && geometry.column(Role::green) && geometry.column(Role::blue);
+  if (!separate && !geometry.column(Role::packed_colour)) return;
+  colours.resize(geometry.count);
+  if (!separate) {
+    decode_packed(geometry, colours, context);
+    return;
+  }
+  if (std::all_of(std::begin(colour_roles), std::end(colour_roles),
+                  [&](Role role) { return geometry.column(role).type == Scalar::u8; })) {
+    decode_bytes(geometry, colours, context);
+    return;
+  }
+  const double factor = colour_factor(geometry, context);
+  context.parallel_for(
+      geometry.count,
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t a = 0; a < 3; ++a)
+          each_number(geometry.column(colour_roles[a]), begin, end,
+                      [&](std::size_t i, double v) { colours[i][a] = to_byte(v * factor); });
+      },
+      chunk);
+}
+
+void decode_intensities(const RawGeometry& geometry, std::vector<float>& intensities, const Context& context) {
+  if (!geometry.column(Role::intensity)) return;
+  intensities.resize(geometry.count);
+  context.parallel_for(
+      geometry.count,
+      [&](std::size_t begin, std::size_t end) {
+        each_number(geometry.column(Role::intensity), begin, end, [&](std::size_t i, double v) {
+          constexpr double most = std::numeric_limits<float>::max();
+          intensities[i] = std::abs(v) <= most ? static_cast<float>(v) : 0.0F;
+        });
+      },
+      chunk);
+}
+
+void decode_labels(const RawGeometry& geometry, std::vector<std::int32_t>& labels, const Context& context) {
+  if (!geometry.column(Role::label)) return;
+  labels.resize(geometry.count);
+  context.parallel_for(
+      geometry.count,
+      [&](std::size_t begin, std::size_t end) {
+        each_number(geometry.column(Role::label), begin, end, [&](std::size_t i, double v) {
+          constexpr double low = std::numeric_limits<std::int32_t>::min();
+          constexpr double high = std::numeric_limits<std::int32_t>::max();
+          labels[i] = std::isnan(v) ? -1 : static_cast<std::int32_t>(std::clamp(std::round(v), low, high));
+        });
+      },
+      chunk);
+}
+
+}  // namespace atrium::io

@@ -1,0 +1,141 @@
+#include "modules/io/lines.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <limits>
+
+namespace atrium::io {
+namespace {
+
+constexpr std::size_t piece_size = std::size_t{1} << 20U;
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+bool is_separator(char c) { return is_space(c) || c == ',' || c == ';'; }
+
+bool is_row(std::string_view line, bool comments) {
+  std::size_t i = 0;
+  while (i < line.size() && is_space(line[i])) ++i;
+  if (i == line.size()) return false;
+  return !comments || !(line[i] == '#' || (line[i] == '/' && i + 1 < line.size() && line[i + 1] == '/'));
+}
+
+/// Calls f(line) for each line of a text; f gives false to stop.
+template <class F>
+void each_line(std::string_view text, F&& f) {
+  while (!text.empty()) {
+    const auto* end = static_cast<const char*>(std::memchr(text.data(), '\n', text.size()));
+    const std::size_t length = end == nullptr ? text.size() : static_cast<std::size_t>(end - text.data());
+    if (!f(text.substr(0, length))) return;
+    text.remove_prefix(std::min(text.size(), length + 1));
+  }
+}
+
+std::vector<Lines::Piece> cut(std::string_view text) {
+  std::vector<Lines::Piece> pieces;
+  while (!text.empty()) {
+    std::size_t length = std::min(text.size(), piece_size);
+    const std::size_t end = text.find('\n', length - 1);
+    length = end == std::string_view::npos ? text.size() : end + 1;
+    pieces.push_back({text.substr(0, length)});
+    text.remove_prefix(length);
+  }
+  return pieces;
+}
+
+}  // namespace
+
+Lines::Lines(std::string_view text, std::size_t first_line, bool comments, const Context& context)
+    : comments_(comments), pieces_(cut(text)) {
+  std::vector<std::size_t> lines(pieces_.size());
+  context.parallel_for(
+      pieces_.size(),
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          each_line(pieces_[i].text, [&](std::string_view line) {
+            ++lines[i];
+            pieces_[i].rows += is_row(line, comments_) ? 1 : 0;
+            return true;
+          });
+      },
+      1);
+  std::size_t row = 0;
+  std::size_t line = first_line;
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    pieces_[i].first_row = row;
+    pieces_[i].first_line = line;
+    row += pieces_[i].rows;
+    line += lines[i];
+  }
+  end_line_ = line - 1;
+}
+
+void Lines::for_rows(std::size_t begin, std::size_t end, const Context& context,
+                     const std::function<void(std::size_t, const Row&)>& work) const {
+  std::vector<std::exception_ptr> errors(pieces_.size());
+  const auto one = [&](std::size_t p) {
+    const Piece& piece = pieces_[p];
+    if (piece.first_row + piece.rows <= begin || piece.first_row >= end) return;
+    Row row{piece.first_row, piece.first_line, {}};
+    each_line(piece.text, [&](std::string_view line) {
+      if (is_row(line, comments_)) {
+        row.text = line;
+        if (row.index >= begin) work(p, row);
+        ++row.index;
+      }
+      ++row.line;
+      return row.index < end;
+    });
+  };
+  context.parallel_for(
+      pieces_.size(),
+      [&](std::size_t first, std::size_t last) {
+        for (std::size_t p = first; p < last; ++p) {
+          try {
+            one(p);
+          } catch (...) {
+            errors[p] = std::current_exception();
+          }
+        }
+      },
+      1);
+  for (const auto& error : errors)
+    if (error) std::rethrow_exception(error);
+}
+
+std::string_view next_token(std::string_view& text) {
+  std::size_t begin = 0;
+  while (begin < text.size() && is_separator(text[begin])) ++begin;
+  std::size_t end = begin;
+  while (end < text.size() && !is_separator(text[end])) ++end;
+  const std::string_view token = text.substr(begin, end - begin);
+  text.remove_prefix(end);
+  return token;
+}
+
+bool parse_number(std::string_view token, double& value) {
+  if (token.starts_with('+')) token.remove_prefix(1);
+  const char* end = token.data() + token.size();
+  const auto [stop, error] = std::from_chars(token.data(), end, value);
+  if (error == std::errc::result_out_of_range && stop == end) {
+    value = std::strtod(std::string(token).c_str(), nullptr);  // ±inf, or 0 when too small
+    return true;
+  }
+  if (error != std::errc{}) return false;
+  if (stop == end) return true;
+  // Old Windows programs write what is not finite as "1.#QNAN", "-1.#IND", "1.#INF".
+  if (*stop != '#' || token.size() > 16) return false;
+  value = std::numeric_limits<double>::quiet_NaN();
+  return true;
+}
+
+std::string quote(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text.substr(0, 40)) result += c >= ' ' && c != '\x7f' ? c : '?';
+  return result + (text.size() > 40 ? "…'" : "'");
+}
+
+}  // namespace atrium::io

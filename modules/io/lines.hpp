@@ -1,0 +1,55 @@
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "graph/api/context.hpp"
+
+namespace atrium::io {
+
+/// A row: a line of a text file that is neither blank nor a comment.
+struct Row {
+  std::size_t index = 0;  ///< among rows
+  std::size_t line = 0;   ///< 1-based, in the whole file
+  std::string_view text;  ///< without the line's end
+};
+
+/// The rows of a text, cut at line ends into pieces of about a megabyte that are parsed side by side.
+class Lines {
+ public:
+  struct Piece {
+    std::string_view text;
+    std::size_t first_row = 0, rows = 0;
+    std::size_t first_line = 1;
+  };
+
+  /// `first_line`: number of the text's first line. comments: lines that begin with # or // are no rows.
+  Lines(std::string_view text, std::size_t first_line, bool comments, const Context& context);
+
+  std::size_t rows() const { return pieces_.empty() ? 0 : pieces_.back().first_row + pieces_.back().rows; }
+  std::size_t end_line() const { return end_line_; }  ///< number of the last line
+  const std::vector<Piece>& pieces() const { return pieces_; }
+
+  /// Calls work(piece, row) for each row of [begin, end), pieces side by side, rows of a piece in order. Of several
+  /// errors that of the earliest piece is thrown.
+  void for_rows(std::size_t begin, std::size_t end, const Context& context,
+                const std::function<void(std::size_t piece, const Row& row)>& work) const;
+
+ private:
+  bool comments_;
+  std::size_t end_line_ = 0;
+  std::vector<Piece> pieces_;
+};
+
+/// Takes the next token, delimited by blanks, commas and semicolons; empty at the end.
+std::string_view next_token(std::string_view& text);
+
+/// Reads the whole token as a decimal number, "nan" and "inf" included. False if it is none.
+bool parse_number(std::string_view token, double& value);
+
+/// " 'abc'" shortened and with unprintable bytes replaced, for messages.
+std::string quote(std::string_view text);
+
+}  // namespace atrium::io

@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <bit>
+
+#include "graph/api/error.hpp"
+#include "modules/io/byte_buffer.hpp"
+#include "modules/io/mesh_writers.hpp"
+#include "modules/io/palette.hpp"
+
+namespace atrium::io {
+namespace {
+
+std::string header_of(const Mesh& mesh, bool binary) {
+  const char* format = !binary                                      ? "ascii"
+                       : std::endian::native == std::endian::little ? "binary_little_endian"
+                                                                    : "binary_big_endian";
+  std::string header = fmt::format("ply\nformat {} 1.0\ncomment Atrium; metres\n", format);
+  if (!mesh.classes.empty()) {
+    header += "comment class:";
+    for (const SurfaceClass c : all_classes) header += fmt::format(" {} {}", static_cast<int>(c), name_of(c));
+    header += "\n";
+  }
+  header +=
+      fmt::format("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n", mesh.vertices.size());
+  const std::string colour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  if (!mesh.colours.empty()) header += colour;
+  header += fmt::format("element face {}\nproperty list uchar uint vertex_indices\n", mesh.triangles.size());
+  if (!mesh.classes.empty()) header += "property uchar class\n" + colour;
+  if (!mesh.storeys.empty()) header += "property int storey\n";
+  if (!mesh.primitives.empty()) header += "property int primitive\n";
+  return header + "end_header\n";
+}
+
+void write_binary(const Mesh& mesh, ByteBuffer& out) {
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Eigen::Vector3d place = mesh.origin + mesh.vertices[i];
+    for (int a = 0; a < 3; ++a) out.number(place[a]);
+    if (!mesh.colours.empty()) out.number(mesh.colours[i]);
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    out.number(std::uint8_t{3});
+    out.number(mesh.triangles[t]);
+    if (!mesh.classes.empty()) {
+      out.number(static_cast<std::uint8_t>(mesh.classes[t]));
+      out.number(colour_of(mesh.classes[t]));
+    }
+    if (!mesh.storeys.empty()) out.number(mesh.storeys[t]);
+    if (!mesh.primitives.empty()) out.number(mesh.primitives[t]);
+  }
+}
+
+void write_text(const Mesh& mesh, ByteBuffer& out) {
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Eigen::Vector3d place = mesh.origin + mesh.vertices[i];
+    out.text(fmt::format("{} {} {}", place.x(), place.y(), place.z()));
+    if (!mesh.colours.empty())
+      out.text(fmt::format(" {} {} {}", mesh.colours[i][0], mesh.colours[i][1], mesh.colours[i][2]));
+    out.text("\n");
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    out.text(fmt::format("3 {} {} {}", a, b, c));
+    if (!mesh.classes.empty()) {
+      const Colour colour = colour_of(mesh.classes[t]);
+      out.text(fmt::format(" {} {} {} {}", static_cast<int>(mesh.classes[t]), colour[0], colour[1], colour[2]));
+    }
+    if (!mesh.storeys.empty()) out.text(fmt::format(" {}", mesh.storeys[t]));
+    if (!mesh.primitives.empty()) out.text(fmt::format(" {}", mesh.primitives[t]));
+    out.text("\n");
+  }
+}
+
+}  // namespace
+
+void check_mesh(const Mesh& mesh) {
+  if (!mesh.origin.allFinite()) throw Error("the mesh's origin is not finite");
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    if (!mesh.vertices[i].allFinite()) throw Error(fmt::format("vertex {} of the mesh is not finite", i));
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const auto corner : mesh.triangles[t])
+      if (corner >= mesh.vertices.size())
+        throw Error(
+            fmt::format("triangle {} of the mesh has a corner at vertex {} of {}", t, corner, mesh.vertices.size()));
+  const auto check = [](std::string_view column, std::size_t size, std::size_t wanted) {
+    if (size != 0 && size != wanted)
+      throw Error(fmt::format("the mesh's column '{}' has {} entries instead of {}", column, size, wanted));
+  };
+  check("colours", mesh.colours.size(), mesh.vertices.size());
+  check("classes", mesh.classes.size(), mesh.triangles.size());
+  check("storeys", mesh.storeys.size(), mesh.triangles.size());
+  check("primitives", mesh.primitives.size(), mesh.triangles.size());
+}
+
+void write_ply(const Mesh& mesh, bool binary, AtomicFile& file) {
+  ByteBuffer out(file);
+  out.text(header_of(mesh, binary));
+  if (binary)
+    write_binary(mesh, out);
+  else
+    write_text(mesh, out);
+  out.flush();
+}
+
+}  // namespace atrium::io

@@ -1,0 +1,80 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "modules/io/scalar.hpp"
+
+namespace atrium::io {
+
+/// What a column of a file means to us.
+enum class Role : std::uint8_t {
+  x,
+  y,
+  z,
+  nx,
+  ny,
+  nz,
+  red,
+  green,
+  blue,
+  packed_colour,
+  intensity,
+  label,
+  none  // `none` is also the number of roles
+};
+inline constexpr std::size_t role_count = static_cast<std::size_t>(Role::none);
+
+/// The role of a property, field or column by its name, in the spellings of common programs ("nx", "normal_x",
+/// "diffuse_red", "scalar_Intensity", "classification"); upper and lower case are the same.
+Role role_of(std::string_view name);
+
+/// Numbers at equal distances in memory: a property of a binary file in place, or of a decoded table.
+struct Column {
+  const std::byte* data = nullptr;  ///< null: the file has no such column
+  std::size_t stride = 0;           ///< bytes from one to the next
+  Scalar type = Scalar::none;
+  bool swapped = false;  ///< in the other byte order than this machine's
+  explicit operator bool() const { return data != nullptr; }
+};
+
+/// What a reader found in a file: columns still in the file's number types, and triangles. decode_cloud and decode_mesh
+/// turn it into port values.
+struct RawGeometry {
+  std::string path;
+  std::size_t count = 0;  ///< vertices
+  std::array<Column, role_count> columns;
+  std::vector<std::array<std::uint32_t, 3>> triangles;     ///< every index below `count`
+  std::vector<std::int32_t> classes, storeys, primitives;  ///< per triangle, or empty
+  std::size_t skipped_faces = 0;                           ///< faces of fewer than three corners
+  std::optional<Eigen::Vector3d> viewpoint;                ///< sensor's place if the file states one, in its units
+  bool organised = false;  ///< an image of points: rows and columns of one shot of a depth camera
+  std::vector<std::shared_ptr<const void>> storage;  ///< what the columns point into
+
+  Column& column(Role role) { return columns[static_cast<std::size_t>(role)]; }
+  const Column& column(Role role) const { return columns[static_cast<std::size_t>(role)]; }
+};
+
+/// Rows of doubles for what has to be decoded first (text, records of variable length): one column a role.
+class Table {
+ public:
+  Table(std::size_t rows, std::vector<Role> roles) : roles_(std::move(roles)), values_(rows * roles_.size()) {}
+  double* row(std::size_t i) { return values_.data() + i * roles_.size(); }
+  std::size_t width() const { return roles_.size(); }
+  /// Makes the table's columns those of the geometry, which keeps it alive.
+  static void attach(std::shared_ptr<Table> table, RawGeometry& geometry);
+
+ private:
+  std::vector<Role> roles_;
+  std::vector<double> values_;
+};
+
+/// Throws Error unless the geometry has x, y and z. `names`: what the file does have.
+void require_position(const RawGeometry& geometry, std::string_view names);
+
+}  // namespace atrium::io

@@ -1,0 +1,13 @@
+#pragma once
+#include <string>
+
+#include "graph/api/context.hpp"
+#include "modules/io/raw_geometry.hpp"
+
+namespace atrium::io {
+
+/// Reads a file in the format that its beginning shows (PLY, PCD) or that its extension names. Throws Error if that is
+/// none of those that are known. Warns about what was skipped.
+RawGeometry read_geometry(const std::string& path, const Context& context);
+
+}  // namespace atrium::io

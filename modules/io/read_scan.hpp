@@ -1,0 +1,59 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/cloud.hpp"
+
+namespace atrium::io {
+
+/// Reads a scan.
+///
+/// Formats: PLY (ascii, binary of either byte order). Colours, normals, intensities and labels are kept where the file
+/// has them for every point.
+///
+/// A mesh becomes points on its surface (paper, "Data set preparation": Poisson-disk samples, as many as it has
+/// vertices).
+///
+/// Origin: on an axis whose median coordinate is further than 1000 m from zero, the cloud's origin is that median
+/// rounded down to a whole metre, else 0. So georeferenced coordinates keep their millimetres in float32.
+///
+/// Errors: file missing, empty, truncated or malformed (with line or byte), without points, with fewer than three
+/// finite points. Warnings: points that are not finite (dropped), normals that are not (left out), an extent that looks
+/// like millimetres, many points in one place.
+struct ReadScan {
+  static constexpr std::string_view type = "io.read_scan";
+  static constexpr std::string_view summary = "Reads a point cloud or mesh file as a cloud.";
+  enum class MeshUse { sample, vertices };
+  enum class SensorUse { automatic, origin, none };
+  struct In {};
+  struct Out {
+    Cloud cloud;
+  };
+  struct Params {
+    InputPath path;
+    double scale = 1.0;
+    MeshUse mesh = MeshUse::sample;
+    std::int64_t samples = 0;
+    SensorUse sensor = SensorUse::automatic;
+  };
+  static constexpr auto inputs = std::tuple{};
+  static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "The points, in the file's frame, in metres.")};
+  static constexpr auto params = std::tuple{
+      param(&Params::path, "path", "The file: .ply."),
+      param(&Params::scale, "scale", unitless, within(1e-9, 1e9),
+            "Factor from the file's unit to metres: 0.001 for millimetres, 0.3048 for feet."),
+      param(
+          &Params::mesh, "mesh", {{"sample", MeshUse::sample}, {"vertices", MeshUse::vertices}},
+          "What a file with faces gives: Poisson-disk samples of its surface (paper, \"Data set preparation\"), or its "
+          "vertices as they are."),
+      param(&Params::samples, "samples", count, within(0, 4e9),
+            "Number of samples of a mesh; 0: as many as it has vertices."),
+      param(&Params::sensor, "sensor",
+            {{"auto", SensorUse::automatic}, {"origin", SensorUse::origin}, {"none", SensorUse::none}},
+            "Where the scanner stood, if it was in one place. auto: where the file says (VIEWPOINT of PCD, camera of "
+            "PLY), "
+            "if that is not the all-zero default, which exported clouds have too; the file's origin if the points are "
+            "one "
+            "depth image (PCD with a height above 1). origin: the file's origin. none: not known.")};
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::io
