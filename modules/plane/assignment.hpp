@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "graph/api/context.hpp"
+#include "modules/plane/plane_cells.hpp"
+#include "modules/plane/point_octree.hpp"
+#include "modules/types/plane_primitives.hpp"
+
+namespace atrium::plane {
+
+/// A plane and where in it the surface is.
+struct Patch {
+  Plane plane;       ///< in the columns' frame, turned to the side from which it was seen
+  PlaneCells cells;  ///< its connected component, and the cells that touch it
+};
+
+/// For each point, in Morton order, the nearest of the patches that it supports and lies over; -1: none. Of patches at
+/// the same distance the first wins.
+std::vector<std::int32_t> assign_points(const MortonOrder& order, const PointOctree& octree,
+                                        const std::vector<Patch>& patches, const Tolerance& tolerance,
+                                        const Context& context);
+
+/// The patches that own at least `min_points` points as primitives over the cloud: planes refitted to what they own and
+/// turned to the mean of their points' normals (to the patch's own normal where the cloud has none).
+PlanePrimitives fit_primitives(const std::shared_ptr<const Cloud>& cloud, const MortonOrder& order,
+                               const std::vector<std::int32_t>& owner, const std::vector<Patch>& patches,
+                               std::size_t min_points, const Context& context);
+
+}  // namespace atrium::plane

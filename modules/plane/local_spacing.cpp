@@ -1,0 +1,58 @@
+#include "modules/plane/local_spacing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace atrium::plane {
+namespace {
+
+// Neighbours along the curve; where the curve jumps, it costs one or two long steps, which are left out.
+constexpr std::size_t window = 32;
+constexpr std::size_t left_out = 3;
+constexpr std::size_t most_windows = 8192;
+
+/// Prim's algorithm on the complete graph of `count` points from `begin` on.
+float spacing_of(const PointColumns& columns, std::size_t begin, std::size_t count) {
+  if (count < left_out + 2) return 0;
+  std::array<float, window> step;
+  step.fill(std::numeric_limits<float>::infinity());
+  std::array<bool, window> reached{};
+  std::array<float, window> edges{};
+  std::size_t current = 0;
+  for (std::size_t k = 1; k < count; ++k) {
+    reached[current] = true;
+    const Eigen::Vector3f p = columns.point(begin + current);
+    std::size_t nearest = count;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (reached[i]) continue;
+      step[i] = std::min(step[i], (columns.point(begin + i) - p).squaredNorm());
+      if (nearest == count || step[i] < step[nearest]) nearest = i;
+    }
+    edges[k - 1] = step[nearest];
+    current = nearest;
+  }
+  const auto rank = edges.begin() + left_out;
+  std::nth_element(edges.begin(), rank, edges.begin() + static_cast<std::ptrdiff_t>(count - 1), std::greater<>());
+  return std::sqrt(*rank);
+}
+
+}  // namespace
+
+LocalSpacing::LocalSpacing(const MortonOrder& order, const Context& context) {
+  const std::size_t total = order.index.size();
+  stride_ = std::max(window, (total + most_windows - 1) / most_windows);
+  spacings_.resize((total + stride_ - 1) / stride_);
+  context.parallel_for(
+      spacings_.size(),
+      [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+          const std::size_t count = std::min(window, total);
+          spacings_[i] = spacing_of(order.columns, std::min(i * stride_, total - count), count);
+        }
+      },
+      128);
+}
+
+}  // namespace atrium::plane

@@ -1,0 +1,111 @@
+#include "modules/plane/plane_patches.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace atrium::plane {
+namespace {
+
+constexpr double least_distance = 0.03;
+constexpr double distance_per_spacing = 1.05;
+
+/// The distance at which the points of this support are connected, when all of the cloud's points are there.
+double automatic_distance(const Support& support, const RandomSubsets& subsets, const LocalSpacing& spacing) {
+  constexpr std::size_t samples = 64;
+  std::size_t total = 0;
+  for (const auto& part : support) total += part.size();
+  const std::size_t step = std::max<std::size_t>(1, total / samples);
+  std::vector<float> spacings;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < support.size(); ++k) {
+    for (; next < support[k].size(); next += step) spacings.push_back(spacing.at(subsets[k].place[support[k][next]]));
+    next -= support[k].size();
+  }
+  if (spacings.empty()) return least_distance;
+  const auto upper = spacings.begin() + static_cast<std::ptrdiff_t>(3 * spacings.size() / 4);
+  std::nth_element(spacings.begin(), upper, spacings.end());
+  return std::max(least_distance, distance_per_spacing * *upper);
+}
+
+/// Reduces the support to its largest component; the cells are those of the component and what touches them.
+PlaneCells keep_largest_component(Support& support, const RandomSubsets& subsets, const Eigen::Vector3d& normal,
+                                  double distance) {
+  PlaneCells cells(normal, distance);
+  std::vector<std::vector<std::uint32_t>> cell_of(support.size());
+  std::vector<std::size_t> points;
+  for (std::size_t k = 0; k < support.size(); ++k) {
+    cell_of[k].reserve(support[k].size());
+    for (const std::uint32_t i : support[k]) {
+      const std::uint32_t cell = cells.add(subsets[k].columns.point(i));
+      if (cell == points.size()) points.push_back(0);
+      ++points[cell];
+      cell_of[k].push_back(cell);
+    }
+  }
+  const std::vector<std::uint32_t> component = cells.components();
+  std::vector<std::size_t> sizes(component.size(), 0);
+  for (std::size_t i = 0; i < component.size(); ++i) sizes[component[i]] += points[i];
+  const auto largest = static_cast<std::uint32_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  std::vector<bool> chosen(component.size());
+  for (std::size_t i = 0; i < component.size(); ++i) chosen[i] = component[i] == largest;
+  PlaneCells kept = cells.dilated(chosen);
+  for (std::size_t k = 0; k < support.size(); ++k) {
+    std::size_t to = 0;
+    for (std::size_t j = 0; j < support[k].size(); ++j) {
+      const std::uint32_t i = support[k][j];
+      if (chosen[cell_of[k][j]] || kept.contains(subsets[k].columns.point(i))) support[k][to++] = i;
+    }
+    support[k].resize(to);
+  }
+  return kept;
+}
+
+Moments moments_of(const Support& support, const RandomSubsets& subsets) {
+  Moments moments;
+  for (std::size_t k = 0; k < support.size(); ++k)
+    for (const std::uint32_t i : support[k]) moments.add(subsets[k].columns.point(i).cast<double>());
+  return moments;
+}
+
+Plane refitted(const Moments& moments, const Eigen::Vector3d& side) {
+  Plane plane = fit_plane(moments).plane;
+  if (plane.normal.dot(side) < 0) plane = {-plane.normal, -plane.offset};
+  return plane;
+}
+
+}  // namespace
+
+std::optional<FittedPatch> fit_patch(FloatPlane plane, const RandomSubsets& subsets, const Tolerance& tolerance,
+                                     const Connectivity& connectivity, const Context& context) {
+  // On part of the points first: fewer points lie further apart, hence the longer reach.
+  const std::size_t part = std::max<std::size_t>(1, subsets.size() - 1);
+  double sampled = 0;
+  for (std::size_t k = 0; k < part; ++k) sampled += static_cast<double>(subsets[k].live);
+  const double widening = std::sqrt(static_cast<double>(subsets.live()) / std::max(1.0, sampled));
+  FittedPatch result;
+  for (int step = 0; step < 3; ++step) {
+    const bool last = step == 2;
+    Eigen::Vector3d normal = plane.normal.cast<double>().normalized();
+    result.support = subsets.support(plane, tolerance, last ? subsets.size() : part, context);
+    if (std::all_of(result.support.begin(), result.support.end(), [](const auto& s) { return s.empty(); })) {
+      if (last) return std::nullopt;
+      continue;
+    }
+    const double reach = connectivity.cluster_distance > 0
+                             ? connectivity.cluster_distance
+                             : automatic_distance(result.support, subsets, connectivity.spacing);
+    result.patch.cells = keep_largest_component(result.support, subsets, normal, last ? reach : reach * widening);
+    const Moments moments = moments_of(result.support, subsets);
+    result.points = moments.count;
+    if (moments.count < 3) {
+      if (last) return std::nullopt;
+      continue;
+    }
+    result.mean = moments.mean();
+    result.patch.plane = refitted(moments, normal);
+    plane = {result.patch.plane.normal.cast<float>(), static_cast<float>(result.patch.plane.offset)};
+  }
+  return result;
+}
+
+}  // namespace atrium::plane

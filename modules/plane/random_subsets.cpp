@@ -1,0 +1,172 @@
+#include "modules/plane/random_subsets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "graph/api/random.hpp"
+
+namespace atrium::plane {
+namespace {
+
+constexpr double first_subset = 8192;
+constexpr double growth = 8;
+constexpr std::uint32_t leaf_size = 32;
+constexpr std::size_t chunk_size = 65536;
+constexpr std::uint8_t none = 255;
+
+bool supports(const PointColumns& c, std::size_t i, const FloatPlane& plane, const Tolerance& tolerance) {
+  const float d = plane.normal.x() * c.x[i] + plane.normal.y() * c.y[i] + plane.normal.z() * c.z[i] + plane.offset;
+  const float cosine = plane.normal.x() * c.nx[i] + plane.normal.y() * c.ny[i] + plane.normal.z() * c.nz[i];
+  return std::abs(d) <= tolerance.distance && cosine >= tolerance.min_cosine;
+}
+
+std::uint32_t count_range(const PointColumns& c, std::uint32_t begin, std::uint32_t end, const FloatPlane& plane,
+                          const Tolerance& tolerance) {
+  const float a = plane.normal.x();
+  const float b = plane.normal.y();
+  const float g = plane.normal.z();
+  const float* x = c.x.data();
+  const float* y = c.y.data();
+  const float* z = c.z.data();
+  const float* nx = c.nx.data();
+  const float* ny = c.ny.data();
+  const float* nz = c.nz.data();
+  std::uint32_t sum = 0;
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const float d = std::abs(a * x[i] + b * y[i] + g * z[i] + plane.offset);
+    const float cosine = a * nx[i] + b * ny[i] + g * nz[i];
+    sum += static_cast<std::uint32_t>(d <= tolerance.distance) &
+           static_cast<std::uint32_t>(cosine >= tolerance.min_cosine);
+  }
+  return sum;
+}
+
+/// Cumulative shares of the free points up to each subset.
+std::vector<double> subset_shares(double live) {
+  std::vector<double> shares;
+  for (double size = first_subset; 2 * size < live; size *= growth) shares.push_back(size / live);
+  shares.push_back(1);
+  return shares;
+}
+
+}  // namespace
+
+std::uint32_t RandomSubset::count(const FloatPlane& plane, const Tolerance& tolerance) const {
+  if (octree.nodes().empty()) return 0;
+  std::uint32_t sum = 0;
+  octree.visit_slab(0, plane, tolerance.distance, [&](std::uint32_t begin, std::uint32_t end) {
+    sum += count_range(columns, begin, end, plane, tolerance);
+  });
+  return sum;
+}
+
+Moments RandomSubset::moments(const FloatPlane& plane, const Tolerance& tolerance) const {
+  Moments sum;
+  if (octree.nodes().empty()) return sum;
+  octree.visit_slab(0, plane, tolerance.distance, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i)
+      if (supports(columns, i, plane, tolerance)) sum.add(columns.point(i).cast<double>());
+  });
+  return sum;
+}
+
+RandomSubsets::RandomSubsets(const MortonOrder& order, const std::vector<std::int32_t>& owner, std::uint64_t seed,
+                             const Context& context) {
+  const std::size_t total = owner.size();
+  std::size_t free = 0;
+  const auto is_free = [&](std::size_t i) { return owner[i] < 0 && order.columns.is_live(i); };
+  for (std::size_t i = 0; i < total; ++i) free += is_free(i) ? 1 : 0;
+  const std::vector<double> shares = subset_shares(static_cast<double>(free));
+
+  // Which subset each point goes to, and how many of each chunk: then every chunk knows where to write.
+  std::vector<std::uint8_t> target(total, none);
+  const std::size_t chunks = (total + chunk_size - 1) / chunk_size;
+  std::vector<std::vector<std::uint32_t>> offsets(chunks, std::vector<std::uint32_t>(shares.size(), 0));
+  context.parallel_chunks(total, chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!is_free(i)) continue;
+      const double u = static_cast<double>(mix_seed(seed, i) >> 11U) * 0x1.0p-53;
+      std::uint8_t k = 0;
+      while (u >= shares[k] && k + 1U < shares.size()) ++k;
+      target[i] = k;
+      ++offsets[chunk][k];
+    }
+  });
+  std::vector<std::uint32_t> sizes(shares.size(), 0);
+  for (auto& chunk : offsets)
+    for (std::size_t k = 0; k < sizes.size(); ++k) {
+      const std::uint32_t count = chunk[k];
+      chunk[k] = sizes[k];
+      sizes[k] += count;
+    }
+  subsets_.resize(shares.size());
+  std::vector<std::vector<std::uint64_t>> codes(shares.size());
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    subsets_[k].columns.resize(sizes[k]);
+    subsets_[k].place.resize(sizes[k]);
+    subsets_[k].live = sizes[k];
+    codes[k].resize(sizes[k]);
+  }
+  context.parallel_chunks(total, chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint8_t k = target[i];
+      if (k == none) continue;
+      const std::uint32_t to = offsets[chunk][k]++;
+      subsets_[k].columns.copy(to, order.columns, i);
+      subsets_[k].place[to] = static_cast<std::uint32_t>(i);
+      codes[k][to] = order.codes[i];
+    }
+  });
+  for (std::size_t k = 0; k < sizes.size(); ++k)
+    subsets_[k].octree = PointOctree(subsets_[k].columns, codes[k], leaf_size, context);
+  live_ = built_ = free;
+}
+
+std::uint32_t RandomSubsets::count(std::size_t subset, const FloatPlane& plane, const Tolerance& tolerance,
+                                   const Context& context) const {
+  const RandomSubset& s = subsets_[subset];
+  if (s.octree.nodes().empty()) return 0;
+  std::vector<std::uint32_t> counts(s.octree.blocks().size(), 0);
+  context.parallel_for(
+      counts.size(),
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          s.octree.visit_slab(s.octree.blocks()[i], plane, tolerance.distance, [&](std::uint32_t b, std::uint32_t e) {
+            counts[i] += count_range(s.columns, b, e, plane, tolerance);
+          });
+      },
+      8);
+  std::uint32_t sum = 0;
+  for (const std::uint32_t c : counts) sum += c;
+  return sum;
+}
+
+Support RandomSubsets::support(const FloatPlane& plane, const Tolerance& tolerance, std::size_t subsets,
+                               const Context& context) const {
+  Support result(subsets);
+  for (std::size_t k = 0; k < subsets; ++k) {
+    const RandomSubset& s = subsets_[k];
+    const std::vector<std::uint32_t>& blocks = s.octree.blocks();
+    constexpr std::size_t group = 8;
+    std::vector<std::vector<std::uint32_t>> found((blocks.size() + group - 1) / group);
+    context.parallel_chunks(blocks.size(), group, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        s.octree.visit_slab(blocks[i], plane, tolerance.distance, [&](std::uint32_t b, std::uint32_t e) {
+          for (std::uint32_t p = b; p < e; ++p)
+            if (supports(s.columns, p, plane, tolerance)) found[chunk].push_back(p);
+        });
+    });
+    for (const auto& part : found) result[k].insert(result[k].end(), part.begin(), part.end());
+  }
+  return result;
+}
+
+void RandomSubsets::take_out(const Support& support) {
+  for (std::size_t k = 0; k < support.size(); ++k) {
+    for (const std::uint32_t i : support[k]) subsets_[k].columns.take_out(i);
+    subsets_[k].live -= support[k].size();
+    live_ -= support[k].size();
+  }
+}
+
+}  // namespace atrium::plane
