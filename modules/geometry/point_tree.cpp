@@ -17,7 +17,7 @@ Lanes load(const float* p) { return Lanes{p[0], p[1], p[2], p[3]}; }
 Lanes splat(float v) { return Lanes{v, v, v, v}; }
 
 /// Squared distances to the eight boxes of a node.
-void box_distances(const PointTree::Node& node, const Eigen::Vector3f& p, float* result) {
+inline void box_distances(const PointTree::Node& node, const Eigen::Vector3f& p, float* result) {
   for (std::size_t half = 0; half < fan; half += 4) {
     Lanes sum = splat(0);
     for (int axis = 0; axis < 3; ++axis) {
@@ -32,7 +32,7 @@ void box_distances(const PointTree::Node& node, const Eigen::Vector3f& p, float*
   }
 }
 
-void point_distances(const PointTree::Leaf& leaf, const Eigen::Vector3f& p, float* result) {
+inline void point_distances(const PointTree::Leaf& leaf, const Eigen::Vector3f& p, float* result) {
   for (std::size_t half = 0; half < fan; half += 4) {
     const Lanes dx = load(leaf.x + half) - splat(p.x());
     const Lanes dy = load(leaf.y + half) - splat(p.y());
@@ -45,7 +45,9 @@ void point_distances(const PointTree::Leaf& leaf, const Eigen::Vector3f& p, floa
 /// Finite, because the boxes of missing children are infinitely far.
 float square(float distance) { return std::min(distance * distance, std::numeric_limits<float>::max()); }
 
+// A search sees the nearest child first if it is `ordered`: what it finds there makes it want less of the rest.
 struct One {
+  static constexpr bool ordered = true;
   Eigen::Vector3f position;
   Neighbour best;
   // At distance 0 nothing better can come: points in one place stand by ascending index. Otherwise equals are looked
@@ -59,25 +61,28 @@ struct One {
 };
 
 struct Several {
+  static constexpr bool ordered = true;
   Eigen::Vector3f position;
   std::size_t k;
-  std::vector<Neighbour>& best;
   float limit;
-  bool wanted(float d) const { return d < limit || (d == limit && (d > 0 || best.size() < k)); }
+  Neighbour* best;  // room for k, ascending
+  std::size_t count = 0;
+  bool wanted(float d) const { return d < limit || (d == limit && (d > 0 || count < k)); }
   void offer(Neighbour n) {
-    if (best.size() == k) {
-      if (!(n < best.back())) return;
-      best.pop_back();
+    if (count == k) {
+      if (!(n < best[k - 1])) return;
+    } else {
+      ++count;
     }
-    auto at = best.end();
-    best.push_back(n);
-    for (at = best.end() - 1; at != best.begin() && n < *(at - 1); --at) *at = *(at - 1);
-    *at = n;
-    if (best.size() == k) limit = best.back().squared_distance;
+    std::size_t at = count - 1;
+    for (; at > 0 && n < best[at - 1]; --at) best[at] = best[at - 1];
+    best[at] = n;
+    if (count == k) limit = best[k - 1].squared_distance;
   }
 };
 
 struct All {
+  static constexpr bool ordered = false;
   Eigen::Vector3f position;
   float limit;
   std::vector<Neighbour>& found;
@@ -236,7 +241,6 @@ void PointTree::build(const std::vector<Eigen::Vector3f>& points, const Context&
   }
 }
 
-/// Depth first, the nearest child first.
 template <class Search>
 void PointTree::visit(Search& search, std::size_t level, std::size_t node) const {
   std::array<float, fan> distance;
@@ -246,11 +250,11 @@ void PointTree::visit(Search& search, std::size_t level, std::size_t node) const
   for (std::uint8_t c = 0; c < fan; ++c) {
     if (!search.wanted(distance[c])) continue;
     std::size_t at = count++;
-    for (; at > 0 && distance[queue[at - 1]] > distance[c]; --at) queue[at] = queue[at - 1];
+    for (; Search::ordered && at > 0 && distance[queue[at - 1]] > distance[c]; --at) queue[at] = queue[at - 1];
     queue[at] = c;
   }
   for (std::size_t q = 0; q < count; ++q) {
-    if (!search.wanted(distance[queue[q]])) return;
+    if (Search::ordered && !search.wanted(distance[queue[q]])) return;
     const std::size_t child = node * fan + queue[q];
     if (level > 0) {
       visit(search, level - 1, child);
@@ -275,10 +279,11 @@ bool PointTree::nearest(const Eigen::Vector3f& position, Neighbour& result, floa
 
 void PointTree::k_nearest(const Eigen::Vector3f& position, std::size_t k, std::vector<Neighbour>& result,
                           float max_distance) const {
-  result.clear();
-  if (order_.empty() || k == 0 || !(max_distance >= 0)) return;
-  Several search{position, k, result, square(max_distance)};
+  result.resize(order_.empty() || !(max_distance >= 0) ? 0 : std::min(k, order_.size()));
+  if (result.empty()) return;
+  Several search{position, result.size(), square(max_distance), result.data()};
   visit(search, levels_.size() - 1, 0);
+  result.resize(search.count);
 }
 
 void PointTree::within(const Eigen::Vector3f& position, float max_distance, std::vector<Neighbour>& result) const {

@@ -11,8 +11,8 @@ namespace atrium {
 
 /// A point found by a PointTree: its index in the cloud and the square of its distance, metres².
 struct Neighbour {
-  std::uint32_t index;
-  float squared_distance;
+  std::uint32_t index = 0;
+  float squared_distance = 0;
   friend bool operator<(const Neighbour& a, const Neighbour& b) {
     return a.squared_distance != b.squared_distance ? a.squared_distance < b.squared_distance : a.index < b.index;
   }

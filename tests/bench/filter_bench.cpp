@@ -1,16 +1,18 @@
 #include <benchmark/benchmark.h>
 
+#include "modules/filter/outliers.hpp"
 #include "modules/filter/voxel_grid.hpp"
 #include "tests/bench/box_flat.hpp"
 
 namespace {
 
-void voxel_grid(benchmark::State& state) {
+template <class Node>
+void filter(benchmark::State& state) {
   atrium::Cloud cloud = atrium::bench::box_flat(static_cast<std::size_t>(state.range(0)));
   cloud.normals.clear();
   const auto in = atrium::input(std::move(cloud));
   atrium::Context context;
-  for (auto _ : state) benchmark::DoNotOptimize(atrium::filter::VoxelGrid::run({in}, {}, context));
+  for (auto _ : state) benchmark::DoNotOptimize(Node::run({in}, {}, context));
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
@@ -18,4 +20,5 @@ void voxel_grid(benchmark::State& state) {
 
 #define SIZES \
   Arg(100000)->Arg(1000000)->Arg(4000000)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()
-BENCHMARK(voxel_grid)->SIZES;
+BENCHMARK(filter<atrium::filter::VoxelGrid>)->SIZES;
+BENCHMARK(filter<atrium::filter::Outliers>)->SIZES;

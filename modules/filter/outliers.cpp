@@ -1,0 +1,94 @@
+#include "modules/filter/outliers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "modules/filter/kept.hpp"
+#include "modules/geometry/point_tree.hpp"
+
+namespace atrium::filter {
+namespace {
+
+constexpr std::size_t chunk_size = 4096;
+
+/// Each point's mean distance to its k nearest others, metres.
+std::vector<float> mean_distances(const std::vector<Eigen::Vector3f>& points, std::size_t k, const Context& context) {
+  const PointTree tree(points, context);
+  std::vector<float> result(points.size());
+  context.parallel_for(
+      points.size(),
+      [&](std::size_t begin, std::size_t end) {
+        std::vector<Neighbour> found;
+        float reach = PointTree::everywhere;
+        for (std::size_t i = begin; i < end; ++i) {
+          const std::uint32_t index = tree.order()[i];
+          tree.k_nearest(points[index], k + 1, found, reach);  // itself at 0, and k others
+          double sum = 0;
+          for (const auto& n : found) sum += static_cast<double>(std::sqrt(n.squared_distance));
+          result[index] = static_cast<float>(sum / static_cast<double>(k));
+          if (i + 1 == end) break;
+          // The next point's neighbours are no further than this one's, seen from there.
+          const float step = (points[tree.order()[i + 1]] - points[index]).norm();
+          reach = (std::sqrt(found.back().squared_distance) + step) * 1.0001F + 1e-12F;
+        }
+      },
+      chunk_size);
+  return result;
+}
+
+/// The largest distance that is normal: mean + deviations · σ over the distances that are at most `limit`.
+double next_limit(const std::vector<float>& distances, double limit, double deviations, const Context& context) {
+  struct Sums {
+    double n = 0, sum = 0, squares = 0;
+  };
+  std::vector<Sums> chunks((distances.size() + chunk_size - 1) / chunk_size);
+  context.parallel_chunks(distances.size(), chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    Sums sums;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto d = static_cast<double>(distances[i]);
+      if (d > limit) continue;
+      sums.n += 1;
+      sums.sum += d;
+      sums.squares += d * d;
+    }
+    chunks[chunk] = sums;
+  });
+  Sums all;
+  for (const Sums& s : chunks) {
+    all.n += s.n;
+    all.sum += s.sum;
+    all.squares += s.squares;
+  }
+  const double mean = all.sum / all.n;
+  const double deviation = std::sqrt(std::max(0.0, all.squares / all.n - mean * mean));
+  return mean * (1 + 1e-5) + deviations * deviation;  // rounding alone must not make outliers of even spacing
+}
+
+}  // namespace
+
+Outliers::Out Outliers::run(const In& in, const Params& params, Context& context) {
+  const Cloud& cloud = *in.cloud;
+  const auto k = static_cast<std::size_t>(params.neighbours);
+  if (cloud.size() <= k) {
+    if (cloud.size() > 0)
+      context.warn(fmt::format("{} points are too few to find outliers by their {} neighbours", cloud.size(), k));
+    return {cloud, 0};
+  }
+  const std::vector<float> distances = mean_distances(cloud.points, k, context);
+  double limit = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < 10; ++round) {
+    const double next = next_limit(distances, limit, params.deviations, context);
+    if (!(next < limit / 2)) break;
+    limit = next;
+  }
+  std::vector<std::uint8_t> keep(cloud.size());
+  for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = static_cast<double>(distances[i]) <= limit ? 1 : 0;
+  Out out{kept(cloud, keep)};
+  out.removed = static_cast<std::int64_t>(cloud.size() - out.cloud.size());
+  return out;
+}
+
+}  // namespace atrium::filter
