@@ -1,0 +1,1 @@
+list(APPEND libraries atrium_geometry atrium_synth TBB::tbb nlohmann_json::nlohmann_json)
