@@ -82,7 +82,6 @@ void style_surface(vtkActor* actor) {
   property->SetSpecular(0);
 }
 
-
 }  // namespace
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> outline_edges(const Mesh& mesh) {

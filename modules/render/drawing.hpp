@@ -50,7 +50,8 @@ class Drawing {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The outlines of a mesh's faces: edges of one triangle only, or between triangles of different primitives. Pairs of vertices.
+/// The outlines of a mesh's faces: edges of one triangle only, or between triangles of different primitives. Pairs of
+/// vertices.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> outline_edges(const Mesh& mesh);
 
 }  // namespace atrium::render

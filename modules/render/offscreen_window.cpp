@@ -22,7 +22,8 @@ namespace {
               "install Mesa's software renderer: apt-get install libegl-mesa0 libgl1-mesa-dri");
 }
 
-/// The process's OpenGL context; made once, never destroyed (drivers crash when libraries unload before it).
+/// One OpenGL context, for the thread that makes it. It does not outlive the picture: a context that is still there
+/// when the process ends, made by a thread that is gone, corrupts memory in Mesa's exit handlers.
 struct Context {
   EGLDisplay display = EGL_NO_DISPLAY;
   EGLSurface surface = EGL_NO_SURFACE;
@@ -36,8 +37,18 @@ struct Context {
     if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE)
       no_rendering("EGL's surfaceless platform does not start");
     if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) no_rendering("EGL has no OpenGL");
-    constexpr std::array<EGLint, 13> wanted{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
-                                            EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8, EGL_DEPTH_SIZE, 24,
+    constexpr std::array<EGLint, 13> wanted{EGL_SURFACE_TYPE,
+                                            EGL_PBUFFER_BIT,
+                                            EGL_RENDERABLE_TYPE,
+                                            EGL_OPENGL_BIT,
+                                            EGL_RED_SIZE,
+                                            8,
+                                            EGL_GREEN_SIZE,
+                                            8,
+                                            EGL_BLUE_SIZE,
+                                            8,
+                                            EGL_DEPTH_SIZE,
+                                            24,
                                             EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
@@ -45,18 +56,23 @@ struct Context {
       no_rendering("EGL offers no suitable configuration");
     constexpr std::array<EGLint, 5> size{EGL_WIDTH, 16, EGL_HEIGHT, 16, EGL_NONE};
     surface = eglCreatePbufferSurface(display, config, size.data());
-    constexpr std::array<EGLint, 7> version{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 2,
-                                            EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                            EGL_NONE};
+    constexpr std::array<EGLint, 7> version{
+        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     context = eglCreateContext(display, config, EGL_NO_CONTEXT, version.data());
     if (context == EGL_NO_CONTEXT) no_rendering("no OpenGL 3.2 context can be made");
   }
+  ~Context() {
+    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroyContext(display, context);
+    eglDestroySurface(display, surface);
+    eglTerminate(display);
+    eglReleaseThread();
+  }
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  void make_current() const { eglMakeCurrent(display, surface, surface, context); }
 };
-
-Context& shared_context() {
-  static auto* context = new Context;  // NOLINT(cppcoreguidelines-owning-memory): lives as long as the process
-  return *context;
-}
 
 std::mutex& render_mutex() {
   static std::mutex mutex;
@@ -71,11 +87,8 @@ class SurfacelessWindow : public vtkGenericOpenGLRenderWindow {
   static SurfacelessWindow* New();
   vtkTypeMacro(SurfacelessWindow, vtkGenericOpenGLRenderWindow);
 
-  void MakeCurrent() override {
-    const Context& c = shared_context();
-    eglMakeCurrent(c.display, c.surface, c.surface, c.context);
-  }
-  bool IsCurrent() override { return eglGetCurrentContext() == shared_context().context; }
+  void MakeCurrent() override { gl.make_current(); }
+  bool IsCurrent() override { return eglGetCurrentContext() == gl.context; }
   void OpenGLInitContext() override {
     if (Initialized != 0) return;
     MakeCurrent();
@@ -86,8 +99,9 @@ class SurfacelessWindow : public vtkGenericOpenGLRenderWindow {
     GlewInitValid = true;
     Initialized = 1;
     MaximumHardwareLineWidth = 1.0F;
-   
   }
+
+  Context gl;
 
  protected:
   SurfacelessWindow() = default;
@@ -95,7 +109,6 @@ class SurfacelessWindow : public vtkGenericOpenGLRenderWindow {
 vtkStandardNewMacro(SurfacelessWindow);
 
 OffscreenWindow::OffscreenWindow(int width, int height) : window_(nullptr) {
-  shared_context();
   auto* window = SurfacelessWindow::New();
   window->SetOffScreenRendering(1);
   window->SetSwapBuffers(0);
@@ -113,8 +126,6 @@ OffscreenWindow::OffscreenWindow(int width, int height) : window_(nullptr) {
 OffscreenWindow::~OffscreenWindow() {
   window_->Finalize();
   window_->Delete();
-  // The next picture may be drawn by another thread.
-  eglMakeCurrent(shared_context().display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
 RenderLock::RenderLock() { render_mutex().lock(); }

@@ -6,7 +6,8 @@ class vtkRenderWindow;
 namespace atrium::render {
 
 /// A VTK render window without a display, on EGL's surfaceless platform (Mesa): needs no X server, no device and no
-/// environment variable. All windows of the process share one context; hold a RenderLock while one exists.
+/// environment variable. Hold a RenderLock while one exists, and use it on
+/// the thread that made it only.
 class OffscreenWindow {
  public:
   /// Throws Error where there is no way to render (no EGL, no OpenGL 3.2).

@@ -11,9 +11,9 @@ namespace atrium::render {
 
 /// Words and marks on top of a picture. Sizes are in pixels of the picture.
 struct Overlay {
-  std::string title;                                     ///< top left
-  std::vector<std::pair<std::string, Colour>> legend;    ///< bottom left: colour swatches with their names
-  double scale_bar = 0;                                  ///< bottom right: metres per picture width (parallel views); 0: none
+  std::string title;                                   ///< top left
+  std::vector<std::pair<std::string, Colour>> legend;  ///< bottom left: colour swatches with their names
+  double scale_bar = 0;  ///< bottom right: metres per picture width (parallel views); 0: none
   bool dark_background = false;
 };
 

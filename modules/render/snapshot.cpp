@@ -45,7 +45,8 @@ Colour ramp(double t) {
   const auto i = std::min<std::size_t>(static_cast<std::size_t>(x), 3);
   Colour colour{};
   for (std::size_t k = 0; k < 3; ++k)
-    colour[k] = static_cast<std::uint8_t>(std::lround(stops[i][k] + (x - static_cast<double>(i)) * (stops[i + 1][k] - stops[i][k])));
+    colour[k] = static_cast<std::uint8_t>(
+        std::lround(stops[i][k] + (x - static_cast<double>(i)) * (stops[i + 1][k] - stops[i][k])));
   return colour;
 }
 
@@ -102,7 +103,8 @@ Mesh triangulated(const PlaneMeshes& meshes) {
 
 void add_inputs(Drawing& drawing, const Snapshot::In& in, const Params& params, bool from_above,
                 const Eigen::Matrix3d& to_upright) {
-  const Drawing::CloudStyle points{params.point_size, 2000000, from_above && !params.ceilings ? params.cut_below_top : 0};
+  const Drawing::CloudStyle points{params.point_size, 2000000,
+                                   from_above && !params.ceilings ? params.cut_below_top : 0};
   if (in.cloud && !in.cloud->points.empty())
     drawing.add_cloud(*in.cloud, cloud_colours(*in.cloud, params.colour_by, to_upright), points);
   if (in.planes && !in.planes->cloud->points.empty())
@@ -152,7 +154,8 @@ Picture draw(const Snapshot::In& in, const Params& params, const std::string& vi
 
   Drawing drawing(to_upright, dark ? Eigen::Vector3d::Zero() : Eigen::Vector3d::Ones());
   add_inputs(drawing, in, params, view == View::isometric || view == View::top, to_upright.rotation);
-  if (drawing.empty()) throw Error("there is nothing to draw", "wire a cloud, planes, meshes or a mesh that is not empty");
+  if (drawing.empty())
+    throw Error("there is nothing to draw", "wire a cloud, planes, meshes or a mesh that is not empty");
   if (explicit_camera)
     set_view(drawing.renderer(), vector_of(params.eye, "eye"), vector_of(params.target, "target"), drawing.bounds());
   else

@@ -17,8 +17,8 @@ namespace atrium::render {
 /// Draws any stage of a run into PNG files, without a display (VTK on EGL's surfaceless platform).
 ///
 /// All inputs are optional, at least one must be wired; they are drawn together. Inputs in another frame than z up come
-/// with the transform that brings them there: `transform` applies to all of them. The camera fits the meshes and the cloud
-/// without its outermost 0.1 %. Errors: nothing to draw; an unknown view; no way to render on this machine.
+/// with the transform that brings them there: `transform` applies to all of them. The camera fits the meshes and the
+/// cloud without its outermost 0.1 %. Errors: nothing to draw; an unknown view; no way to render on this machine.
 struct Snapshot {
   static constexpr std::string_view type = "render.snapshot";
   static constexpr std::string_view summary = "Draws clouds, primitives and meshes into PNG files, without a display.";
@@ -69,10 +69,12 @@ struct Snapshot {
   static constexpr auto outputs = std::tuple{port(&Out::pictures, "pictures", "One per view, for a contact sheet.")};
   static constexpr auto params = std::tuple{
       param(&Params::path, "path", "PNG file; with several views the view's name is added before the extension."),
-      param(&Params::views, "views", "Any of isometric, top, front, back, left, right, inside. Walls that face away are "
-                                     "left out, so that rooms are seen from outside."),
-      param(&Params::eye, "eye", metres, unbounded, "Explicit camera: where it stands, [x, y, z] in the z-up frame, in "
-                                                    "place of `views`; needs `target`."),
+      param(&Params::views, "views",
+            "Any of isometric, top, front, back, left, right, inside. Walls that face away are "
+            "left out, so that rooms are seen from outside."),
+      param(&Params::eye, "eye", metres, unbounded,
+            "Explicit camera: where it stands, [x, y, z] in the z-up frame, in "
+            "place of `views`; needs `target`."),
       param(&Params::target, "target", metres, unbounded, "Explicit camera: what it looks at, [x, y, z]."),
       param(&Params::width, "width", count, within(16, 8192), "Pixels across."),
       param(&Params::height, "height", count, within(16, 8192), "Pixels down."),
@@ -86,9 +88,10 @@ struct Snapshot {
       param(&Params::point_size, "point_size", unitless, within(1, 20), "Pixels."),
       param(&Params::perspective, "perspective", "Perspective instead of parallel projection."),
       param(&Params::ceilings, "ceilings", "Draw ceilings too."),
-      param(&Params::cut_below_top, "cut_below_top", metres, within(0, 100),
-            "Points nearer than this to the top of the cloud are left out in the isometric and top views, so that rooms "
-            "are looked into; not with `ceilings`."),
+      param(
+          &Params::cut_below_top, "cut_below_top", metres, within(0, 100),
+          "Points nearer than this to the top of the cloud are left out in the isometric and top views, so that rooms "
+          "are looked into; not with `ceilings`."),
       param(&Params::edges, "edges", "Draw the outlines of faces."),
       param(&Params::legend, "legend", "Name the classes' colours."),
       param(&Params::scale_bar, "scale_bar", "A bar of known length (parallel projection only)."),
