@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   int exit_code = cli::ok;
   cli::add_check(app, exit_code);
   cli::add_nodes(app, exit_code);
+  cli::add_run(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help

@@ -1,4 +1,5 @@
-# atrium_add_plugin(<module> NODES <name>... [NAMESPACE <ns>] [SOURCES <file>...] [LIBRARIES <target>...])
+# atrium_add_plugin(<module> NODES <name>... [NAMESPACE <ns>] [SOURCES <file>...] [LIBRARIES <target>...]
+#                   [NO_INSTALL])
 #
 # Builds libatrium_<module>.so from the node types <name>: each is a pair of files, <name>.hpp and <name>.cpp, whose header
 # holds the struct <Name> (CamelCase of the file's name) in the namespace <ns> (default: atrium::<module>), with
@@ -7,7 +8,7 @@
 include(GNUInstallDirs)
 set(ATRIUM_PLUGIN_TEMPLATE_DIR ${CMAKE_CURRENT_LIST_DIR})
 function(atrium_add_plugin module)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAMESPACE" "NODES;SOURCES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL" "NAMESPACE" "NODES;SOURCES;LIBRARIES")
   if(NOT arg_NAMESPACE)
     set(arg_NAMESPACE atrium::${module})
   endif()
@@ -34,5 +35,7 @@ function(atrium_add_plugin module)
   target_link_libraries(atrium_${module} PUBLIC atrium::graph atrium::types ${arg_LIBRARIES})
   set_target_properties(atrium_${module} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/atrium
                                                     INSTALL_RPATH "$ORIGIN;$ORIGIN/.." INSTALL_RPATH_USE_LINK_PATH ON)
-  install(TARGETS atrium_${module} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/atrium)
+  if(NOT arg_NO_INSTALL)
+    install(TARGETS atrium_${module} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/atrium)
+  endif()
 endfunction()

@@ -91,10 +91,13 @@ TEST(RunFolder, HashesAreThoseOfAnyNumberOfThreads) {
   const auto outputs = [&](int threads) {
     run(b.pipeline(), folder / "run", threads);
     json list = json::array();
-    for (const auto& node : manifest(folder / "run")["nodes"]) list.push_back({node["node"], node["outputs"]});
+    const auto all = manifest(folder / "run");
+    for (const auto& node : all["nodes"]) list.push_back({node["node"], node["outputs"]});
     return list;
   };
   const auto serial = outputs(1);
+  ASSERT_EQ(serial.size(), 50U);
+  EXPECT_EQ(serial[49][1][0]["hash"].get<std::string>().size(), 32U);
   EXPECT_EQ(serial, outputs(2));
   EXPECT_EQ(serial, outputs(4));
 }

@@ -1,0 +1,34 @@
+#pragma once
+#include "graph/api/node.hpp"
+
+namespace atrium::trial {
+
+/// A step that passes, fails, or waits for the end.
+struct Step {
+  static constexpr std::string_view type = "trial.step";
+  static constexpr std::string_view summary = "Passes, fails, or waits for the run to be cancelled.";
+  enum class Mode { pass, fail, wait, ignore };
+  struct In {
+    OptionalInput<double> after;
+  };
+  struct Out {
+    double value = 0;
+    std::string text;
+  };
+  struct Params {
+    double value = 1.5;
+    Mode mode = Mode::pass;
+  };
+  static constexpr auto inputs = std::tuple{port(&In::after, "after", "Added to `value`.")};
+  static constexpr auto outputs =
+      std::tuple{port(&Out::value, "value", "The sum, and a random number if `value` is 0."),
+                 port(&Out::text, "text", "The same in words.")};
+  static constexpr auto params =
+      std::tuple{param(&Params::value, "value", metres, unbounded, "A length."),
+                 param(&Params::mode, "mode",
+                       {{"pass", Mode::pass}, {"fail", Mode::fail}, {"wait", Mode::wait}, {"ignore", Mode::ignore}},
+                       "ignore: waits, and does not listen to a cancellation.")};
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::trial
