@@ -91,12 +91,7 @@ concept PointerLike = requires(const T& p) {
 /// May be hashed as one block of memory: no padding, no pointers.
 template <class T>
 constexpr bool is_flat() {
-  if constexpr (std::is_enum_v<T> || (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>))
-    return true;
-  else if constexpr (EigenFixed<T>)
-    return true;
-  else
-    return false;
+  return std::is_enum_v<T> || (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || EigenFixed<T>;
 }
 template <class T>
 struct IsFlatArray : std::false_type {};
