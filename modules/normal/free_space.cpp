@@ -1,0 +1,126 @@
+#include "modules/normal/free_space.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "modules/normal/surfels.hpp"
+
+namespace atrium::normal {
+namespace {
+
+constexpr std::size_t samples = 256;  // surfels of a region that cast rays
+constexpr double saturation = 3.0;    // metres: further is no freer
+constexpr double own_surface = 0.5;  // of a voxel's edge: what lies nearer to the surfel's plane does not stop its rays
+
+/// Directions about +z: straight, and six each at 45° and 70° from it.
+std::vector<Eigen::Vector3f> hemisphere() {
+  std::vector<Eigen::Vector3f> directions{Eigen::Vector3f::UnitZ()};
+  for (const double tilt : {45.0, 70.0})
+    for (int k = 0; k < 6; ++k) {
+      const double t = tilt * std::numbers::pi / 180, a = (k + tilt / 90) * std::numbers::pi / 3;
+      directions.push_back(
+          Eigen::Vector3d(std::sin(t) * std::cos(a), std::sin(t) * std::sin(a), std::cos(t)).cast<float>());
+    }
+  return directions;
+}
+
+class FreeSpace {
+ public:
+  FreeSpace(const PointGrid& grid, const Surfels& surfels, double range)
+      : grid_(grid), surfels_(surfels), range_(range), directions_(hemisphere()) {}
+
+  /// How far rays travel on the side of the surfel's axis less how far on the other.
+  double balance(const Surfel& surfel) const {
+    const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), surfel.axis);
+    double sum = 0;
+    for (const Eigen::Vector3f& d : directions_) {
+      const Eigen::Vector3f direction = turn * d;
+      sum += travel(surfel, direction) - travel(surfel, -direction);
+    }
+    return sum;
+  }
+
+ private:
+  /// Length of a ray up to the first surface other than the surfel's own; 0 if there is none. Walks from voxel to voxel
+  /// (Amanatides & Woo, "A fast voxel traversal algorithm for ray tracing", 1987).
+  double travel(const Surfel& surfel, const Eigen::Vector3f& direction) const {
+    const double size = grid_.cell_size();
+    const auto near = static_cast<float>(own_surface * size);
+    const PointGrid::Cell& start = grid_.cells()[surfel.cell];
+    std::array<std::int32_t, 3> at{start.x, start.y, start.z}, step{};
+    std::array<double, 3> next{}, width{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<Eigen::Index>(axis);
+      const double d = static_cast<double>(direction[i]);
+      const double to_middle = grid_.centre(start)[i] - static_cast<double>(surfel.centre[i]);
+      step[axis] = d < 0 ? -1 : 1;
+      width[axis] = d == 0 ? std::numeric_limits<double>::infinity() : size / std::abs(d);
+      next[axis] = d == 0 ? width[axis] : std::max(0.0, (to_middle + step[axis] * size / 2) / d);
+    }
+    for (;;) {
+      const std::size_t axis = next[0] <= next[1] && next[0] <= next[2] ? 0 : next[1] <= next[2] ? 1 : 2;
+      const double t = next[axis];
+      at[axis] += step[axis];
+      next[axis] += width[axis];
+      if (t > range_ || at[axis] < 0 || at[axis] >= grid_.extent()[axis]) return 0;
+      const std::uint32_t cell = grid_.find(at[0], at[1], at[2]);
+      if (cell == PointGrid::none) continue;
+      for (std::uint32_t s = surfels_.first[cell]; s < surfels_.first[cell + 1]; ++s)
+        if (std::abs(surfel.axis.dot(surfels_.surfels[s].centre - surfel.centre)) > near)
+          return std::min(t, saturation);
+    }
+  }
+
+  const PointGrid& grid_;
+  const Surfels& surfels_;
+  double range_;
+  std::vector<Eigen::Vector3f> directions_;
+};
+
+/// Turns the signs of each region to its freer side.
+void turn_regions(Surfels& surfels, const FreeSpace& space, const Context& context) {
+  context.parallel_for(
+      surfels.regions.size(),
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t r = begin; r < end; ++r) {
+          const auto& region = surfels.regions[r];
+          const std::size_t stride = (region.size() + samples - 1) / samples;
+          double balance = 0;
+          double majority = 0;  // without a difference: the side that most surfels are on
+          for (std::size_t i = 0; i < region.size(); i += stride) {
+            const std::uint32_t s = region[i];
+            balance += static_cast<double>(surfels.signs[s]) * space.balance(surfels.surfels[s]);
+            majority += static_cast<double>(surfels.signs[s]);
+          }
+          if (balance == 0) balance = majority;
+          if (balance < 0)
+            for (const auto s : region) surfels.signs[s] = -surfels.signs[s];
+        }
+      },
+      8);
+}
+
+}  // namespace
+
+void turn_to_free_space(Cloud& cloud, double voxel, double range, const Context& context) {
+  auto grid = std::make_unique<PointGrid>(cloud.points, voxel, context);
+  for (int doubled = 0; doubled < 3 && 2 * grid->inside() < 3 * grid->cells().size(); ++doubled) {
+    voxel *= 2;
+    grid = std::make_unique<PointGrid>(cloud.points, voxel, context);
+  }
+  Surfels surfels(cloud, *grid, context);
+  turn_regions(surfels, FreeSpace(*grid, surfels, range), context);
+  context.parallel_for(grid->inside(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t s = surfels.of_point[i];
+      Eigen::Vector3f& normal = cloud.normals[grid->order()[i]];
+      if (surfels.signs[s] * surfels.surfels[s].axis.dot(normal) < 0) normal = -normal;
+    }
+  });
+}
+
+}  // namespace atrium::normal
