@@ -24,6 +24,11 @@ void check_count(const RawGeometry& geometry) {
                 "three points are the least that define a plane");
 }
 
+/// Numbers that are no class of ours become `object`.
+SurfaceClass class_of(std::int32_t number) {
+  return number >= 0 && number <= 3 ? static_cast<SurfaceClass>(number) : SurfaceClass::object;
+}
+
 bool is_good(double v) { return std::abs(v) <= largest_coordinate; }  // false for NaN
 
 /// Runs of the columns x, y, z as doubles: scaled, without the origin.
@@ -79,17 +84,18 @@ std::vector<std::uint32_t> decode_points(const RawGeometry& geometry, double sca
   return all;
 }
 
-Cloud without(const Cloud& cloud, const std::vector<std::uint32_t>& dropped) {
+/// 0 … count-1 without those dropped.
+std::vector<std::uint32_t> others(std::size_t count, const std::vector<std::uint32_t>& dropped) {
   std::vector<std::uint32_t> kept;
-  kept.reserve(cloud.size() - dropped.size());
+  kept.reserve(count - dropped.size());
   auto next = dropped.begin();
-  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+  for (std::uint32_t i = 0; i < count; ++i) {
     if (next != dropped.end() && *next == i)
       ++next;
     else
       kept.push_back(i);
   }
-  return select(cloud, kept);
+  return kept;
 }
 
 Eigen::Vector3d good_position(const RawGeometry& geometry, double scale, std::size_t i, bool& good) {
@@ -125,7 +131,8 @@ Eigen::Vector3d choose_origin(const RawGeometry& geometry, double scale) {
   return origin;
 }
 
-Cloud decode_cloud(const RawGeometry& geometry, double scale, const Context& context) {
+Cloud decode_cloud(const RawGeometry& geometry, double scale, const Context& context,
+                   std::vector<std::uint32_t>* kept) {
   check_count(geometry);
   Cloud cloud;
   cloud.origin = choose_origin(geometry, scale);
@@ -134,6 +141,7 @@ Cloud decode_cloud(const RawGeometry& geometry, double scale, const Context& con
   decode_colours(geometry, cloud.colours, context);
   decode_intensities(geometry, cloud.intensities, context);
   decode_labels(geometry, cloud.labels, context);
+  if (kept != nullptr) *kept = others(cloud.size(), dropped);
   if (dropped.empty()) return cloud;
   const std::size_t left = cloud.size() - dropped.size();
   if (left == 0)
@@ -143,7 +151,7 @@ Cloud decode_cloud(const RawGeometry& geometry, double scale, const Context& con
                 "three points are the least that define a plane");
   context.warn(fmt::format("{}: {} of {} points dropped: coordinates not finite, or beyond 10⁹ m", geometry.path,
                            dropped.size(), cloud.size()));
-  return without(cloud, dropped);
+  return select(cloud, others(cloud.size(), dropped));
 }
 
 Mesh decode_mesh(const RawGeometry& geometry, double scale, const Context& context) {
@@ -179,7 +187,7 @@ Mesh decode_mesh(const RawGeometry& geometry, double scale, const Context& conte
     const auto& [a, b, c] = geometry.triangles[t];
     if (good[a] == 0 || good[b] == 0 || good[c] == 0) continue;
     mesh.triangles.push_back({place[a], place[b], place[c]});
-    if (!geometry.classes.empty()) mesh.classes.push_back(static_cast<SurfaceClass>(geometry.classes[t]));
+    if (!geometry.classes.empty()) mesh.classes.push_back(class_of(geometry.classes[t]));
     if (!geometry.storeys.empty()) mesh.storeys.push_back(geometry.storeys[t]);
     if (!geometry.primitives.empty()) mesh.primitives.push_back(geometry.primitives[t]);
   }

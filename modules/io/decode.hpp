@@ -21,7 +21,9 @@ Eigen::Vector3d choose_origin(const RawGeometry& geometry, double scale);
 /// dropped and counted in a warning. Normals are brought to unit length; if any is zero or not finite, the column is
 /// left out and a warning says so. Colours of 16 bits or of 0 … 1 become 8 bits. Sensors are not set. Error if fewer
 /// than three points are left.
-Cloud decode_cloud(const RawGeometry& geometry, double scale, const Context& context);
+/// kept: if given, gets the file's indices of the cloud's points, ascending.
+Cloud decode_cloud(const RawGeometry& geometry, double scale, const Context& context,
+                   std::vector<std::uint32_t>* kept = nullptr);
 
 /// The triangles over their vertices in double. Triangles on vertices that are not finite are dropped, with a warning.
 /// No error if nothing is left.

@@ -2,19 +2,34 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <initializer_list>
+
 #include "graph/api/error.hpp"
 #include "modules/io/mapped_file.hpp"
+#include "modules/io/obj_reader.hpp"
 #include "modules/io/paths.hpp"
+#include "modules/io/pcd_reader.hpp"
 #include "modules/io/ply_reader.hpp"
+#include "modules/io/stl_reader.hpp"
+#include "modules/io/text_reader.hpp"
 
 namespace atrium::io {
 namespace {
 
 RawGeometry read(const std::shared_ptr<const MappedFile>& file, const Context& context) {
   const std::string extension = extension_of(file->path());
+  const auto is = [&](std::initializer_list<std::string_view> known) {
+    return std::find(known.begin(), known.end(), extension) != known.end();
+  };
   const std::string_view text = file->text();
-  if (text.starts_with("ply\n") || text.starts_with("ply\r") || extension == ".ply") return read_ply(file, context);
-  throw Error(file->path() + ": unknown format '" + extension + "'", "known: .ply");
+  if (is({".ply"}) || text.starts_with("ply\n") || text.starts_with("ply\r")) return read_ply(file, context);
+  if (is({".pcd"}) || text.starts_with("# .PCD")) return read_pcd(file, context);
+  if (is({".obj"})) return read_obj(file, context);
+  if (is({".stl"})) return read_stl(file, context);
+  if (is({".xyz", ".txt", ".pts", ".csv", ".asc", ".xyzrgb", ".xyzn"})) return read_text(file, context);
+  throw Error(fmt::format("{}: unknown format '{}'", file->path(), extension),
+              "known: .ply, .pcd, .obj, .stl, and text as .xyz, .txt, .pts, .csv, .asc, .xyzn, .xyzrgb");
 }
 
 }  // namespace

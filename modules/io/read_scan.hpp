@@ -37,7 +37,8 @@ struct ReadScan {
   static constexpr auto inputs = std::tuple{};
   static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "The points, in the file's frame, in metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::path, "path", "The file: .ply."),
+      param(&Params::path, "path",
+            "The file: .ply, .pcd, .obj, .stl, or text: .xyz, .txt, .pts, .csv, .asc, .xyzn, .xyzrgb."),
       param(&Params::scale, "scale", unitless, within(1e-9, 1e9),
             "Factor from the file's unit to metres: 0.001 for millimetres, 0.3048 for feet."),
       param(

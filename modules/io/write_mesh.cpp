@@ -4,16 +4,41 @@
 #include "modules/io/paths.hpp"
 
 namespace atrium::io {
+namespace {
+
+void write_obj_pair(const Mesh& mesh, const std::filesystem::path& target, const Context& context) {
+  std::filesystem::path materials = target;
+  materials.replace_extension(".mtl");
+  AtomicFile file(target);
+  write_obj(mesh, materials.filename().string(), file);
+  if (!mesh.classes.empty()) {
+    AtomicFile second(materials);
+    second.write(obj_materials());
+    second.commit();
+    context.wrote(materials);
+  }
+  file.commit();
+}
+
+}  // namespace
 
 WriteMesh::Out WriteMesh::run(const In& in, const Params& params, Context& context) {
   const std::string extension = extension_of(params.path.path);
-  if (extension != ".ply") throw Error("cannot write a mesh as '" + params.path.path + "'", "known extensions: .ply");
+  if (extension != ".ply" && extension != ".obj" && extension != ".stl")
+    throw Error("cannot write a mesh as '" + params.path.path + "'", "known extensions: .ply, .obj, .stl");
   check_mesh(*in.mesh);
   if (in.mesh->triangles.empty()) context.warn("the mesh is empty: " + params.path.path + " has no faces");
   const auto target = context.output(params.path.path);
-  AtomicFile file(target);
-  write_ply(*in.mesh, params.binary, file);
-  file.commit();
+  if (extension == ".obj") {
+    write_obj_pair(*in.mesh, target, context);
+  } else {
+    AtomicFile file(target);
+    if (extension == ".ply")
+      write_ply(*in.mesh, params.binary, file);
+    else
+      write_stl(*in.mesh, params.binary, file);
+    file.commit();
+  }
   context.wrote(target);
   return {};
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -33,10 +34,15 @@ class Files : public ::testing::Test {
     std::mutex mutex_;
   };
 
+  static std::string safe(std::string name) {
+    std::replace(name.begin(), name.end(), '/', '_');
+    return name;
+  }
+
   Files() {
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder = std::filesystem::temp_directory_path() /
-             ("atrium_io_" + std::to_string(::getpid()) + "_" + std::string(info->name()));
+    folder =
+        std::filesystem::temp_directory_path() / ("atrium_io_" + std::to_string(::getpid()) + "_" + safe(info->name()));
     std::filesystem::create_directories(folder);
     host = std::make_shared<Host>(folder);
     context = Context(1, host);
@@ -46,6 +52,7 @@ class Files : public ::testing::Test {
   std::string path(const std::string& name) const { return (folder / name).string(); }
   /// Writes a file and gives its path.
   std::string file(const std::string& name, const std::string& content) const {
+    std::filesystem::remove(folder / name);  // ext4 flushes a file that is cut and written again
     std::ofstream(folder / name, std::ios::binary) << content;
     return path(name);
   }

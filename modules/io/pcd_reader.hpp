@@ -1,0 +1,12 @@
+#pragma once
+#include "graph/api/context.hpp"
+#include "modules/io/mapped_file.hpp"
+#include "modules/io/raw_geometry.hpp"
+
+namespace atrium::io {
+
+/// Reads a PCD file (versions 0.5 to 0.7; ascii, binary, binary_compressed; fields of any type and count; colours
+/// packed into one number of four bytes; organised clouds). Throws Error with line (ascii) or byte offset (binary).
+RawGeometry read_pcd(const std::shared_ptr<const MappedFile>& file, const Context& context);
+
+}  // namespace atrium::io

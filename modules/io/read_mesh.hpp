@@ -1,0 +1,33 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/mesh.hpp"
+
+namespace atrium::io {
+
+/// Reads a triangle mesh: PLY, OBJ, STL (formats as in io.read_scan). Polygons become fans of triangles. Vertices stay
+/// double; vertex colours are kept; `class`, `storey` and `primitive` of the faces are read back from PLY (face
+/// properties) and, without storeys, from OBJ (groups "wall_12"), as io.write_mesh wrote them.
+///
+/// Origin: as in io.read_scan. Errors: file missing, empty, truncated or malformed (with line or byte). Warnings: faces
+/// of fewer than three corners and triangles on vertices that are not finite (both left out), a mesh without triangles.
+struct ReadMesh {
+  static constexpr std::string_view type = "io.read_mesh";
+  static constexpr std::string_view summary = "Reads a triangle mesh from a file.";
+  struct In {};
+  struct Out {
+    Mesh mesh;
+  };
+  struct Params {
+    InputPath path;
+    double scale = 1.0;
+  };
+  static constexpr auto inputs = std::tuple{};
+  static constexpr auto outputs = std::tuple{port(&Out::mesh, "mesh", "The mesh, in the file's frame, in metres.")};
+  static constexpr auto params =
+      std::tuple{param(&Params::path, "path", "The file: .ply, .obj, .stl."),
+                 param(&Params::scale, "scale", unitless, within(1e-9, 1e9),
+                       "Factor from the file's unit to metres: 0.001 for millimetres, 0.3048 for feet.")};
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::io

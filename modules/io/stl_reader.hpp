@@ -1,0 +1,13 @@
+#pragma once
+#include "graph/api/context.hpp"
+#include "modules/io/mapped_file.hpp"
+#include "modules/io/raw_geometry.hpp"
+
+namespace atrium::io {
+
+/// Reads an STL file, binary or ascii (told apart by the size that the binary count gives, not by the word "solid" that
+/// binary files may begin with too). Corners at exactly the same place become one vertex; the file's facet normals are
+/// not used. Throws Error with line (ascii) or byte (binary).
+RawGeometry read_stl(const std::shared_ptr<const MappedFile>& file, const Context& context);
+
+}  // namespace atrium::io

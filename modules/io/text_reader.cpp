@@ -1,0 +1,25 @@
+#include "modules/io/text_reader.hpp"
+
+#include "graph/api/error.hpp"
+#include "modules/io/lines.hpp"
+#include "modules/io/text_layout.hpp"
+
+namespace atrium::io {
+
+RawGeometry read_text(const std::shared_ptr<const MappedFile>& file, const Context& context) {
+  if (file->text().substr(0, 4096).find('\0') != std::string_view::npos)
+    throw Error(file->path() + ": not a text file (it has zero bytes)");
+  const Lines lines(file->text(), 1, true, context);
+  const TextLayout layout = text_layout(file->path(), file->text(), lines, context);
+  RawGeometry geometry;
+  geometry.path = file->path();
+  geometry.count = lines.rows() - layout.first_row;
+  auto table = std::make_shared<Table>(geometry.count, layout.roles);
+  lines.for_rows(layout.first_row, lines.rows(), context, [&](std::size_t, const Row& row) {
+    read_numbers(file->path(), row, layout.roles.size(), table->row(row.index - layout.first_row));
+  });
+  Table::attach(std::move(table), geometry);
+  return geometry;
+}
+
+}  // namespace atrium::io

@@ -1,0 +1,13 @@
+#pragma once
+#include "graph/api/context.hpp"
+#include "modules/io/mapped_file.hpp"
+#include "modules/io/raw_geometry.hpp"
+
+namespace atrium::io {
+
+/// Reads a text file of one point a line (XYZ, TXT, PTS, CSV, ASC). Values are separated by blanks, tabs, commas or
+/// semicolons; lines that begin with # or // are comments; what the columns are: text_layout. Throws Error with the
+/// line.
+RawGeometry read_text(const std::shared_ptr<const MappedFile>& file, const Context& context);
+
+}  // namespace atrium::io

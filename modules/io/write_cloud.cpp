@@ -1,0 +1,110 @@
+#include "modules/io/write_cloud.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <optional>
+
+#include "modules/io/cloud_columns.hpp"
+#include "modules/io/paths.hpp"
+
+namespace atrium::io {
+namespace {
+
+/// The sensor's true place if there is exactly one.
+std::optional<Eigen::Vector3d> single_sensor(const Cloud& cloud) {
+  if (cloud.sensors.size() != 1) return std::nullopt;
+  return cloud.origin + cloud.sensors[0].cast<double>();
+}
+
+std::string_view ply_type(Scalar type) {
+  switch (type) {
+    case Scalar::u8: return "uchar";
+    case Scalar::u16: return "ushort";
+    case Scalar::i32: return "int";
+    case Scalar::f32: return "float";
+    default: return "double";
+  }
+}
+
+void write_ply(const Cloud& cloud, bool binary, ByteBuffer& out) {
+  const auto columns = columns_of(cloud, false);
+  const auto sensor = single_sensor(cloud);
+  const char* format = !binary                                      ? "ascii"
+                       : std::endian::native == std::endian::little ? "binary_little_endian"
+                                                                    : "binary_big_endian";
+  out.text(fmt::format("ply\nformat {} 1.0\ncomment Atrium; metres\nelement vertex {}\n", format, cloud.size()));
+  for (const auto& column : columns) out.text(fmt::format("property {} {}\n", ply_type(column.type), column.name));
+  if (sensor) out.text("element camera 1\nproperty double view_px\nproperty double view_py\nproperty double view_pz\n");
+  out.text("end_header\n");
+  if (binary)
+    write_records(columns, cloud.size(), out);
+  else
+    write_lines(columns, cloud.size(), ' ', out);
+  if (!sensor) return;
+  if (binary)
+    for (int a = 0; a < 3; ++a) out.number((*sensor)[a]);
+  else
+    out.text(fmt::format("{} {} {}\n", sensor->x(), sensor->y(), sensor->z()));
+}
+
+void write_pcd(const Cloud& cloud, bool binary, ByteBuffer& out) {
+  const auto columns = columns_of(cloud, true);
+  const Eigen::Vector3d sensor = single_sensor(cloud).value_or(Eigen::Vector3d::Zero());
+  std::string names;
+  std::string sizes;
+  std::string types;
+  std::string counts;
+  for (const auto& column : columns) {
+    names += fmt::format(" {}", column.name);
+    sizes += fmt::format(" {}", size_of(column.type));
+    types += is_floating(column.type) ? " F" : column.type == Scalar::i32 ? " I" : " U";
+    counts += " 1";
+  }
+  out.text(fmt::format("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS{}\nSIZE{}\nTYPE{}\nCOUNT{}\n",
+                       names, sizes, types, counts));
+  out.text(fmt::format("WIDTH {}\nHEIGHT 1\nVIEWPOINT {} {} {} 1 0 0 0\nPOINTS {}\nDATA {}\n", cloud.size(), sensor.x(),
+                       sensor.y(), sensor.z(), cloud.size(), binary ? "binary" : "ascii"));
+  if (binary)
+    write_records(columns, cloud.size(), out);
+  else
+    write_lines(columns, cloud.size(), ' ', out);
+}
+
+void write_text(const Cloud& cloud, char separator, ByteBuffer& out) {
+  const auto columns = columns_of(cloud, false);
+  std::string names;
+  for (const auto& column : columns)
+    names += (names.empty() ? "" : std::string(1, separator)) + std::string(column.name);
+  out.text((separator == ',' ? "" : "# ") + names + "\n");
+  write_lines(columns, cloud.size(), separator, out);
+}
+
+}  // namespace
+
+WriteCloud::Out WriteCloud::run(const In& in, const Params& params, Context& context) {
+  const Cloud& cloud = *in.cloud;
+  const std::string extension = extension_of(params.path.path);
+  const bool text = extension == ".xyz" || extension == ".txt" || extension == ".csv";
+  if (!text && extension != ".ply" && extension != ".pcd")
+    throw Error("cannot write a cloud as '" + params.path.path + "'", "known extensions: .ply, .pcd, .xyz, .txt, .csv");
+  if (cloud.points.empty()) context.warn("the cloud is empty: " + params.path.path + " has no points");
+  if (cloud.sensors.size() > 1 || (text && !cloud.sensors.empty()))
+    context.warn(fmt::format("{}: the places of the {} sensors are not kept by this format", params.path.path,
+                             cloud.sensors.size()));
+  const auto target = context.output(params.path.path);
+  AtomicFile file(target);
+  ByteBuffer out(file);
+  if (extension == ".ply")
+    write_ply(cloud, params.binary, out);
+  else if (extension == ".pcd")
+    write_pcd(cloud, params.binary, out);
+  else
+    write_text(cloud, extension == ".csv" ? ',' : ' ', out);
+  out.flush();
+  file.commit();
+  context.wrote(target);
+  return {};
+}
+
+}  // namespace atrium::io

@@ -1,0 +1,38 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/cloud.hpp"
+
+namespace atrium::io {
+
+/// Writes a cloud in true coordinates (its origin added) with all of its columns, in the format that the path's
+/// extension names: .ply and .pcd (binary or ascii), .xyz and .txt (blanks), .csv (commas); the last three begin with a
+/// line of column names.
+///
+/// Coordinates are float32 while the cloud's origin is 0, else double, so that georeferenced clouds keep their
+/// millimetres (PCL's loaders want float32 in PCD). Colours are red, green, blue bytes (PCD: packed `rgb`), labels
+/// int32, `source` ushort. One sensor is written as PCD's VIEWPOINT or PLY's element `camera`; of several, and in text,
+/// the places are not kept, with a warning.
+///
+/// Errors: unknown extension, a folder that cannot be written; then no file is there. An empty cloud gives a valid file
+/// without points, and a warning.
+struct WriteCloud {
+  static constexpr std::string_view type = "io.write_cloud";
+  static constexpr std::string_view summary = "Writes a cloud with all its columns to a file.";
+  struct In {
+    Input<Cloud> cloud;
+  };
+  struct Out {};
+  struct Params {
+    OutputPath path{"cloud.ply"};
+    bool binary = true;
+  };
+  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "What to write.")};
+  static constexpr auto outputs = std::tuple{};
+  static constexpr auto params =
+      std::tuple{param(&Params::path, "path",
+                       "The file, in the run's folder; its extension is the format: .ply, .pcd, .xyz, .txt, .csv."),
+                 param(&Params::binary, "binary", "Binary where the format has both kinds (.ply, .pcd); else text.")};
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::io

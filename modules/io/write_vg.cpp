@@ -1,0 +1,140 @@
+#include "modules/io/write_vg.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "modules/io/byte_buffer.hpp"
+#include "modules/io/paths.hpp"
+
+namespace atrium::io {
+namespace {
+
+/// A group's colour, 0 … 1: hues in steps of the golden ratio, so that neighbouring numbers look different.
+std::array<float, 3> group_colour(std::size_t group) {
+  const double hue = std::fmod(static_cast<double>(group) * 0.6180339887498949, 1.0);
+  std::array<float, 3> colour{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double k = std::fmod(hue * 6.0 + 5.0 - 2.0 * static_cast<double>(a), 6.0);
+    colour[a] = static_cast<float>(0.9 - 0.7 * std::clamp(std::min(k, 4.0 - k), 0.0, 1.0));
+  }
+  return colour;
+}
+
+std::string label_of(std::size_t group) { return "plane_" + std::to_string(group); }
+
+class TextWriter {
+ public:
+  explicit TextWriter(ByteBuffer& out) : out_(out) {}
+  void count(std::string_view name, std::size_t n) { print("{}: {}\n", name, n); }
+  void point(const Eigen::Vector3d& origin, const Eigen::Vector3f& p) {
+    if (origin.isZero(0)) {
+      triple(p.x(), p.y(), p.z());
+    } else {
+      const Eigen::Vector3d place = origin + p.cast<double>();
+      triple(place.x(), place.y(), place.z());
+    }
+  }
+  template <class T>
+  void triple(T x, T y, T z) {
+    print("{} {} {}\n", x, y, z);
+  }
+  void group(std::size_t g, const Plane& plane, const std::vector<std::uint32_t>& points) {
+    const auto colour = group_colour(g);
+    const auto& n = plane.normal;
+    print("group_type: 0\nnum_group_parameters: 4\ngroup_parameters: {} {} {} {}\n", n.x(), n.y(), n.z(), plane.offset);
+    print("group_label: {}\ngroup_color: {:.4f} {:.4f} {:.4f}\ngroup_num_points: {}\n", label_of(g), colour[0],
+          colour[1], colour[2], points.size());
+    for (const auto i : points) print("{} ", i);
+    print("\nnum_children: 0\n");
+  }
+
+ private:
+  template <class... A>
+  void print(fmt::format_string<A...> format, A&&... values) {
+    line_.clear();
+    fmt::format_to(std::back_inserter(line_), format, std::forward<A>(values)...);
+    out_.text({line_.data(), line_.size()});
+  }
+  ByteBuffer& out_;
+  fmt::memory_buffer line_;
+};
+
+class BinaryWriter {
+ public:
+  explicit BinaryWriter(ByteBuffer& out) : out_(out) {}
+  void count(std::string_view /*name*/, std::size_t n) { integer(n); }
+  void point(const Eigen::Vector3d& /*origin*/, const Eigen::Vector3f& p) { triple(p.x(), p.y(), p.z()); }
+  void triple(float x, float y, float z) {
+    for (const float v : {x, y, z}) out_.number(v);
+  }
+  void group(std::size_t g, const Plane& plane, const std::vector<std::uint32_t>& points) {
+    const std::string label = label_of(g);
+    const auto colour = group_colour(g);
+    integer(0);
+    integer(4);
+    for (int a = 0; a < 3; ++a) out_.number(static_cast<float>(plane.normal[a]));
+    out_.number(static_cast<float>(plane.offset));
+    integer(label.size());
+    out_.text(label);
+    triple(colour[0], colour[1], colour[2]);
+    integer(points.size());
+    for (const auto i : points) integer(i);
+    integer(0);
+  }
+
+ private:
+  void integer(std::size_t v) { out_.number(static_cast<std::int32_t>(v)); }
+  ByteBuffer& out_;
+};
+
+template <class Writer>
+void write(const PlanePrimitives& planes, const Eigen::Vector3d& origin, Writer writer) {
+  const Cloud& cloud = *planes.cloud;
+  writer.count("num_points", cloud.size());
+  for (const auto& p : cloud.points) writer.point(origin, p);
+  writer.count("num_colors", cloud.colours.size());
+  for (const auto& c : cloud.colours) writer.triple(c[0] / 255.0F, c[1] / 255.0F, c[2] / 255.0F);
+  writer.count("num_normals", cloud.normals.size());
+  for (const auto& n : cloud.normals) writer.triple(n.x(), n.y(), n.z());
+  writer.count("num_groups", planes.primitives.size());
+  for (std::size_t g = 0; g < planes.primitives.size(); ++g) {
+    Plane plane = planes.primitives[g].plane;
+    plane.offset -= plane.normal.dot(origin);
+    writer.group(g, plane, planes.primitives[g].inliers);
+  }
+}
+
+}  // namespace
+
+WriteVg::Out WriteVg::run(const In& in, const Params& params, Context& context) {
+  const Cloud& cloud = *in.planes->cloud;
+  const std::string extension = extension_of(params.path.path);
+  if (extension != ".vg" && extension != ".bvg")
+    throw Error("cannot write vertex groups as '" + params.path.path + "'", "known extensions: .vg, .bvg");
+  const bool binary = extension == ".bvg";
+  if (binary && cloud.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+    throw Error(fmt::format("{} points are too many for a .bvg file", cloud.size()), "write .vg");
+  if (binary && !cloud.origin.isZero(0))
+    context.warn(
+        fmt::format("{}: .bvg holds float32 only: its coordinates are relative to ({}, {}, {}); .vg has the true "
+                    "ones",
+                    params.path.path, cloud.origin.x(), cloud.origin.y(), cloud.origin.z()));
+  const auto target = context.output(params.path.path);
+  AtomicFile file(target);
+  ByteBuffer out(file);
+  if (binary)
+    write(*in.planes, Eigen::Vector3d::Zero(), BinaryWriter(out));
+  else
+    write(*in.planes, cloud.origin, TextWriter(out));
+  out.flush();
+  file.commit();
+  context.wrote(target);
+  return {};
+}
+
+}  // namespace atrium::io
