@@ -1,12 +1,12 @@
 #include "modules/render/snapshot.hpp"
 
 #include <gtest/gtest.h>
-
 #include <unistd.h>
 
 #include <Eigen/Geometry>
 #include <filesystem>
 
+#include "modules/render/contact_sheet.hpp"
 #include "modules/render/png.hpp"
 #include "modules/types/palette.hpp"
 
@@ -97,7 +97,8 @@ TEST(Snapshot, DrawsPointsWhereTheyAre) {
   Cloud cloud;
   for (int i = 0; i <= 200; ++i)
     for (int k = 0; k <= 200; ++k)
-      if (i <= 100 || k <= 100) cloud.points.emplace_back(0.02F * static_cast<float>(i), 0.02F * static_cast<float>(k), 0);
+      if (i <= 100 || k <= 100)
+        cloud.points.emplace_back(0.02F * static_cast<float>(i), 0.02F * static_cast<float>(k), 0);
   cloud.colours.assign(cloud.size(), {200, 30, 30});
   Snapshot::Params params;
   params.width = params.height = 240;
@@ -107,6 +108,26 @@ TEST(Snapshot, DrawsPointsWhereTheyAre) {
   const Picture& top = out.pictures.pictures[0];
   EXPECT_EQ(pixel(top, 0.3, 0.7), (Colour{200, 30, 30}));
   EXPECT_EQ(pixel(top, 0.7, 0.3), (Colour{255, 255, 255})) << "the corner of the L is empty";
+}
+
+TEST(ContactSheet, PutsEachPictureInItsCell) {
+  auto host = std::make_shared<Folder>();
+  Context context(1, host);
+  const auto plain = [](Colour colour) {
+    Picture picture{200, 100, "a", {}};
+    for (int i = 0; i < 200 * 100; ++i) picture.pixels.insert(picture.pixels.end(), colour.begin(), colour.end());
+    return input(Pictures{{picture}});
+  };
+  ContactSheet::Params params;
+  params.cell_width = 100;
+  const auto out = ContactSheet::run({{plain({255, 0, 0}), plain({0, 255, 0}), plain({0, 0, 255})}}, params, context);
+  const Picture& sheet = out.sheet.pictures.at(0);
+  EXPECT_EQ(pixel(sheet, 0.3, 0.25), (Colour{255, 0, 0}));
+  EXPECT_EQ(pixel(sheet, 0.7, 0.25), (Colour{0, 255, 0}));
+  EXPECT_EQ(pixel(sheet, 0.3, 0.7), (Colour{0, 0, 255}));
+  EXPECT_EQ(pixel(sheet, 0.7, 0.7), (Colour{255, 255, 255}));
+  EXPECT_EQ(read_png(host->path_ / "sheet.png").pixels, sheet.pixels);
+  EXPECT_THROW(ContactSheet::run({{input(Pictures{})}}, params, context), Error);
 }
 
 TEST(Snapshot, SaysWhatIsWrong) {
