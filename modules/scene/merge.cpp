@@ -1,27 +1,14 @@
 #include "modules/scene/merge.hpp"
 
-#include <algorithm>
+#include "modules/types/palette.hpp"
 
 namespace atrium::scene {
 namespace {
 
-Colour colour_of(SurfaceClass surface) {
-  switch (surface) {
-    case SurfaceClass::wall:
-      return {214, 205, 190};
-    case SurfaceClass::floor:
-      return {146, 116, 88};
-    case SurfaceClass::ceiling:
-      return {236, 240, 244};
-    default:
-      return {120, 144, 168};
-  }
-}
-
 void append(Mesh& mesh, const PlaneMesh& polygon, bool colours) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), polygon.corners.begin(), polygon.corners.end());
-  if (colours) mesh.colours.resize(mesh.vertices.size(), colour_of(polygon.surface));
+  if (colours) mesh.colours.resize(mesh.vertices.size(), class_colour(polygon.surface));
   for (std::uint32_t i = 2; i < polygon.corners.size(); ++i) {
     mesh.triangles.push_back({first, first + i - 1, first + i});
     mesh.classes.push_back(polygon.surface);
@@ -44,7 +31,8 @@ Mesh objects_of(const Mesh& objects, bool colours) {
   result.classes.assign(result.triangles.size(), SurfaceClass::object);
   result.storeys.assign(result.triangles.size(), -1);
   result.primitives.assign(result.triangles.size(), -1);
-  if (colours && result.colours.empty()) result.colours.assign(result.vertices.size(), colour_of(SurfaceClass::object));
+  if (colours && result.colours.empty())
+    result.colours.assign(result.vertices.size(), class_colour(SurfaceClass::object));
   if (!colours) result.colours.clear();
   return result;
 }

@@ -13,8 +13,8 @@ enum class Frame { input, aligned };
 /// Polygons are triangulated as fans (they are convex); vertices are shared within a polygon only. Each triangle keeps
 /// its class, storey and primitive; those of objects have class object, storey −1 and primitive −1. The meshes are in
 /// the frame of the input of the pipeline, moved back by the inverse of `transform`, unless `frame` is aligned. Without
-/// `transform` both are the same. Vertices are coloured by class unless `class_colours` is off; objects keep colours of
-/// their own.
+/// `transform` both are the same. Vertices are coloured by class; objects keep colours of their own. With
+/// `class_colours` off, that is so only if the objects have colours: a mesh has them for all its vertices or for none.
 struct Merge {
   static constexpr std::string_view type = "scene.merge";
   static constexpr std::string_view summary = "Assembles structure and objects, with and without ceilings.";

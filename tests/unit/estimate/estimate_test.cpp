@@ -3,7 +3,6 @@
 #include "modules/estimate/adjacency.hpp"
 #include "modules/estimate/plane_meshes.hpp"
 #include "modules/geometry/polygon.hpp"
-#include "modules/segment/structure.hpp"
 #include "tests/support/rooms.hpp"
 
 namespace atrium::estimate {

@@ -1,0 +1,45 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/cloud.hpp"
+#include "modules/types/mesh.hpp"
+
+namespace atrium::object {
+
+/// Surface of the objects by greedy projection triangulation (Marton, Rusu and Beetz 2009, the implementation of PCL):
+/// grows a mesh over the points themselves. Nothing is guessed or smoothed; noise stays, and holes stay open. It suits
+/// points of even density, as after filter.voxel_grid.
+///
+/// Each point is a vertex with its own colour; of points in one place the first counts. Runs on one thread. Fewer than
+/// 10 points, or all in one place: an empty mesh. Error: points without normals.
+struct Greedy {
+  static constexpr std::string_view type = "object.greedy";
+  static constexpr std::string_view summary = "Surface of the objects by greedy triangulation of their points.";
+  struct In {
+    Input<Cloud> cloud;
+  };
+  struct Out {
+    Mesh mesh;
+  };
+  struct Params {
+    double search_radius = 0.1;
+    double reach = 2.5;
+    std::int64_t max_neighbours = 100;
+    double max_surface_angle = 45;
+    double min_angle = 10;
+    double max_angle = 120;
+  };
+  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points of the objects, with normals.")};
+  static constexpr auto outputs = std::tuple{port(&Out::mesh, "mesh", "Their surface, in the cloud's frame.")};
+  static constexpr auto params = std::tuple{
+      param(&Params::search_radius, "search_radius", metres, within(1e-4, 10), "Longest possible edge of a triangle."),
+      param(&Params::reach, "reach", unitless, within(1, 20),
+            "Neighbours are sought within this many times the distance of a point's nearest neighbour (PCL's mu)."),
+      param(&Params::max_neighbours, "max_neighbours", count, within(3, 1000), "Most neighbours of a point looked at."),
+      param(&Params::max_surface_angle, "max_surface_angle", degrees, within(1, 180),
+            "Points whose normals differ by more are not joined."),
+      param(&Params::min_angle, "min_angle", degrees, within(0, 60), "Least angle aimed at in a triangle."),
+      param(&Params::max_angle, "max_angle", degrees, within(60, 180), "Greatest angle in a triangle.")};
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::object

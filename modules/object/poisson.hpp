@@ -1,0 +1,51 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/cloud.hpp"
+#include "modules/types/mesh.hpp"
+
+namespace atrium::object {
+
+/// Surface of the objects by screened Poisson reconstruction (paper: "a surface reconstruction technique"; Kazhdan and
+/// Hoppe 2013, the implementation of PCL).
+///
+/// Poisson's surface is closed, so where nothing was seen it is guessed. PCL gives no sample density to cut that away;
+/// instead, triangles with a corner or their middle further than `trim` from the nearest point are dropped. Colours are
+/// those of the nearest points. Normals must point to the side from which the surface was seen; triangles are
+/// counter-clockwise from there.
+///
+/// PCL's solver adds in the order in which threads arrive, so it runs on one thread: same input, same bytes. Its octree
+/// keeps state for the whole program, so reconstructions wait for each other. Fewer than 10 points, or all in one
+/// place: an empty mesh. Error: points without normals.
+struct Poisson {
+  static constexpr std::string_view type = "object.poisson";
+  static constexpr std::string_view summary =
+      "Surface of the objects by Poisson reconstruction, trimmed to the points.";
+  struct In {
+    Input<Cloud> cloud;
+  };
+  struct Out {
+    Mesh mesh;
+  };
+  struct Params {
+    std::int64_t depth = 8;
+    double samples_per_node = 1.5;
+    double point_weight = 4;
+    double trim = 0.06;
+  };
+  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points of the objects, with normals.")};
+  static constexpr auto outputs = std::tuple{port(&Out::mesh, "mesh", "Their surface, in the cloud's frame.")};
+  static constexpr auto params = std::tuple{
+      param(&Params::depth, "depth", count, within(3, 12),
+            "Depth of the octree: the finest cell is the cloud's extent times 1.1 over 2^depth. Each step more costs "
+            "about "
+            "four times the time and memory where points are dense enough."),
+      param(&Params::samples_per_node, "samples_per_node", count, within(1, 50),
+            "Least number of points in a cell of the octree: 1 to 5 for clean points, up to 20 for noisy ones."),
+      param(&Params::point_weight, "point_weight", unitless, within(0, 100),
+            "How strongly the surface is drawn to the points themselves; 0 is unscreened Poisson (Kazhdan 2006)."),
+      param(&Params::trim, "trim", metres, within(0, 10),
+            "Triangles further than this from the nearest point are dropped; about three times the points' spacing.")};
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::object

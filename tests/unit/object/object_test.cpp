@@ -1,0 +1,149 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "modules/object/greedy.hpp"
+#include "modules/object/none.hpp"
+#include "modules/object/poisson.hpp"
+
+namespace atrium::object {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+/// Points on a sphere of radius 0.5 m around (1, 2, 3), evenly spaced (Fibonacci); the cap above z = 3.3 unseen if
+/// `open`.
+Cloud sphere(int count, bool open = false) {
+  Cloud cloud;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - 2 * (i + 0.5) / count;
+    const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    const double r = std::sqrt(1 - z * z);
+    const Vector3d n(r * std::cos(angle), r * std::sin(angle), z);
+    if (open && n.z() > 0.6) continue;
+    cloud.points.emplace_back((Vector3d(1, 2, 3) + 0.5 * n).cast<float>());
+    cloud.normals.emplace_back(n.cast<float>());
+    cloud.colours.push_back(n.z() > 0 ? Colour{255, 0, 0} : Colour{0, 0, 255});
+  }
+  return cloud;
+}
+
+template <class Node>
+Mesh mesh_of(const Cloud& cloud, typename Node::Params params = {}) {
+  Context context;
+  return Node::run({input(cloud)}, params, context).mesh;
+}
+
+void expect_sphere(const Mesh& mesh, double tolerance) {
+  ASSERT_GT(mesh.triangles.size(), 500U);
+  ASSERT_EQ(mesh.colours.size(), mesh.vertices.size());
+  ASSERT_EQ(mesh.classes.size(), mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Vector3d d = mesh.vertices[i] - Vector3d(1, 2, 3);
+    EXPECT_NEAR(d.norm(), 0.5, tolerance);
+    if (std::abs(d.z()) > 0.1) EXPECT_EQ(mesh.colours[i][0], d.z() > 0 ? 255 : 0);
+  }
+  for (const auto& t : mesh.triangles) {
+    const Vector3d& a = mesh.vertices[t[0]];
+    const Vector3d n = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
+    EXPECT_GE(n.dot(a - Vector3d(1, 2, 3)), -1e-9);  // counter-clockwise from outside
+  }
+}
+
+double area_of(const Mesh& mesh) {
+  double area = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vector3d& a = mesh.vertices[t[0]];
+    area += (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm() / 2;
+  }
+  return area;
+}
+
+TEST(ObjectPoisson, ReconstructsASphere) {
+  const Mesh mesh = mesh_of<Poisson>(sphere(8000), {6, 1.5, 4, 0.06});
+  expect_sphere(mesh, 0.01);
+  EXPECT_NEAR(area_of(mesh), std::numbers::pi, 0.05);
+}
+
+TEST(ObjectPoisson, DoesNotInventWhatWasNotSeen) {
+  const Mesh mesh = mesh_of<Poisson>(sphere(8000, true), {6, 1.5, 4, 0.06});
+  EXPECT_NEAR(area_of(mesh), 0.8 * std::numbers::pi, 0.15);
+  for (const auto& v : mesh.vertices) EXPECT_LT(v.z(), 3.3 + 0.07);
+  EXPECT_GT(area_of(mesh_of<Poisson>(sphere(8000, true), {6, 1.5, 4, 10})), 0.88 * std::numbers::pi);
+}
+
+TEST(ObjectPoisson, TakesEveryDepth) {
+  for (const std::int64_t depth : {3, 4, 5, 9})
+    EXPECT_FALSE(mesh_of<Poisson>(sphere(2000), {depth, 1.5, 4, 0.5}).triangles.empty());
+}
+
+TEST(ObjectGreedy, TriangulatesASphere) {
+  const Mesh mesh = mesh_of<Greedy>(sphere(3000));
+  expect_sphere(mesh, 1e-5);
+  EXPECT_NEAR(area_of(mesh), std::numbers::pi, 0.3);
+}
+
+TEST(ObjectGreedy, DuplicatesByTheThousandChangeNothing) {
+  const Cloud once = sphere(1000);
+  Cloud often = once;
+  for (int k = 0; k < 3000; ++k) {
+    often.points.push_back(once.points[5]);
+    often.normals.push_back(once.normals[5]);
+    often.colours.push_back(once.colours[5]);
+  }
+  EXPECT_EQ(content_hash(mesh_of<Greedy>(often)), content_hash(mesh_of<Greedy>(once)));
+}
+
+template <class Node>
+class ObjectNode : public testing::Test {};
+using Nodes = testing::Types<Poisson, Greedy>;
+TYPED_TEST_SUITE(ObjectNode, Nodes);
+
+TYPED_TEST(ObjectNode, FewPointsAreNoSurface) {
+  for (const int count : {0, 1, 9}) {
+    Cloud cloud = sphere(count);
+    cloud.origin = {500000, 5400000, 0};
+    const Mesh mesh = mesh_of<TypeParam>(cloud);
+    EXPECT_TRUE(mesh.triangles.empty());
+    EXPECT_EQ(mesh.origin, cloud.origin);
+  }
+}
+
+TYPED_TEST(ObjectNode, PointsInOnePlaceLineOrPlaneDoNoHarm) {
+  for (int dimensions = 0; dimensions < 3; ++dimensions) {
+    Cloud cloud;
+    for (int i = 0; i < 1000; ++i) {
+      cloud.points.emplace_back(dimensions > 0 ? 0.01F * static_cast<float>(i % 100) : 0.0F,
+                                dimensions > 1 ? 0.01F * static_cast<float>(i) / 10 : 0.0F, 0.0F);
+      cloud.normals.emplace_back(Vector3f::UnitZ());
+    }
+    const Mesh mesh = mesh_of<TypeParam>(cloud);
+    if (dimensions == 0) EXPECT_TRUE(mesh.triangles.empty());
+    for (const auto& v : mesh.vertices) EXPECT_TRUE(v.allFinite());
+  }
+}
+
+TYPED_TEST(ObjectNode, NeedsNormals) {
+  Cloud cloud = sphere(100);
+  cloud.normals.clear();
+  EXPECT_THROW(mesh_of<TypeParam>(cloud), Error);
+}
+
+TYPED_TEST(ObjectNode, GivesTheSameBytesAgain) {
+  const Cloud cloud = sphere(3000, true);
+  EXPECT_EQ(content_hash(mesh_of<TypeParam>(cloud)), content_hash(mesh_of<TypeParam>(cloud)));
+}
+
+TEST(ObjectNone, IsEmptyAtTheCloudsOrigin) {
+  Cloud cloud = sphere(100);
+  cloud.origin = {1, 2, 3};
+  const Mesh mesh = mesh_of<None>(cloud);
+  EXPECT_TRUE(mesh.vertices.empty());
+  EXPECT_EQ(mesh.origin, cloud.origin);
+}
+
+}  // namespace
+}  // namespace atrium::object
