@@ -11,7 +11,7 @@ struct Adjacency {
   static constexpr std::string_view type = "estimate.adjacency";
   static constexpr std::string_view summary = "Joins meshes that are near to each other in a graph.";
   struct In {
-    Input<PlaneMeshes> meshes;
+    Input<atrium::PlaneMeshes> meshes;
   };
   struct Out {
     atrium::Adjacency adjacency;

@@ -10,6 +10,16 @@
 namespace atrium::segment {
 namespace {
 
+/// Level and steepest directions in steep planes; in others along x, which is along walls.
+PlaneFrame frame_of(const Plane& plane) {
+  constexpr double steep = 0.7;
+  PlaneFrame frame = upright_frame(plane, Eigen::Vector3d::Zero());
+  if (std::abs(plane.normal.z()) < steep) return frame;
+  frame.u = (Eigen::Vector3d::UnitX() - plane.normal * plane.normal.x()).normalized();
+  frame.v = plane.normal.cross(frame.u);
+  return frame;
+}
+
 PlaneExtent measure_one(const PlanePrimitive& primitive, const Cloud& cloud) {
   constexpr double least_thickness = 0.05;
   PlaneExtent extent;
@@ -18,7 +28,7 @@ PlaneExtent measure_one(const PlanePrimitive& primitive, const Cloud& cloud) {
   const Eigen::Vector3d& n = primitive.plane.normal;
   extent.angle = std::acos(std::min(1.0, std::abs(n.z()))) * 180.0 / std::numbers::pi;
   extent.faces_up = n.z() > 0;
-  const PlaneFrame frame = upright_frame(primitive.plane, Eigen::Vector3d::Zero());
+  const PlaneFrame frame = frame_of(primitive.plane);
   Eigen::Matrix3f axes;
   axes << frame.u.cast<float>().transpose(), frame.v.cast<float>().transpose(), n.cast<float>().transpose();
   Eigen::AlignedBox3f box, along;
@@ -33,6 +43,12 @@ PlaneExtent measure_one(const PlanePrimitive& primitive, const Cloud& cloud) {
   extent.bottom = box.min().z();
   extent.top = box.max().z();
   const Eigen::Vector3d sides = along.sizes().cast<double>();
+  const Eigen::Vector3d low = along.min().cast<double>();
+  const Eigen::Vector3d high = along.max().cast<double>();
+  const Eigen::Vector3d base = n * (low.z() + high.z()) / 2;
+  const auto corner = [&](double u, double v) -> Eigen::Vector3d { return base + frame.u * u + frame.v * v; };
+  extent.outline = {corner(low.x(), low.y()), corner(high.x(), low.y()), corner(high.x(), high.y()),
+                    corner(low.x(), high.y())};
   extent.volume = sides.x() * sides.y() * std::max(sides.z(), least_thickness);
   return extent;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "graph/api/context.hpp"
@@ -16,11 +17,14 @@ struct PlaneExtent {
   double height = 0;  ///< mean z of its points, metres
   double bottom = 0;  ///< least z
   double top = 0;     ///< greatest z
-  double volume =
-      0;  ///< of the bounding box along the plane, cubic metres; a box thinner than 5 cm counts as 5 cm thick
+  /// Corners of the bounding rectangle in the plane; from the first to the second is level where the plane is steep.
+  std::array<Eigen::Vector3d, 4> outline{};
+  /// Of the bounding box along the plane, cubic metres; a box thinner than 5 cm counts as 5 cm thick.
+  double volume = 0;
   /// The paper's "combination of number of points and volume of the bounding box": their product.
   double size() const { return static_cast<double>(points) * volume; }
   double extent() const { return top - bottom; }
+  double length() const { return (outline[1] - outline[0]).norm(); }
 };
 
 /// One for each primitive, in their order; one without points has points = 0 and nothing else.

@@ -6,6 +6,7 @@
 
 #include "modules/segment/plane_extent.hpp"
 #include "modules/segment/storeys.hpp"
+#include "modules/segment/wall_contact.hpp"
 
 namespace atrium::segment {
 namespace {
@@ -105,6 +106,13 @@ void check(const Sorted& sorted, const std::vector<Storey>& storeys, const Struc
             "a floor's or ceiling's normal is less than {} deg from the vertical; check that z is up, or change "
             "horizontal_angle",
             params.horizontal_angle));
+  constexpr double meeting = 0.5;  // metres: the paper's th_sep
+  const double contact = wall_contact(sorted.walls, storeys, meeting);
+  if (contact < params.min_wall_contact)
+    throw Error(
+        fmt::format("no room is in it: only {:.0f} % of the walls' length meets a floor or ceiling", 100 * contact),
+        "what was found are furniture and pieces of walls; scan the floor or the ceiling too, or lower "
+        "min_wall_contact");
   if (!floor) context.warn("no floor was found");
   if (!ceiling) context.warn("no ceiling was found");
 }

@@ -183,6 +183,20 @@ TEST(SegmentStructure, SaysThatThereIsNoRoom) {
   EXPECT_NE(error_of(test::box_room().planes(), params).find("wall_angle"), std::string::npos);
 }
 
+TEST(SegmentStructure, FurnitureWithoutItsRoomIsNoRoom) {
+  test::Rooms rooms;
+  rooms.floor(2, 2, 3.5, 3, 0.73).floor(2, 5, 2.5, 5.5, 0.45);  // a table, a chair
+  rooms.wall(0, 0, 2, 0, 0, 2.1)
+      .wall(0, 0.5, 0, 1.2, 0, 2.1)
+      .wall(4.5, 2, 4.5, 4);  // cupboards, what is left of a wall
+  EXPECT_NE(error_of(rooms.planes()).find("only 0 % of the walls' length"), std::string::npos);
+  Structure::Params params;
+  params.min_wall_contact = 0;
+  EXPECT_EQ(report(segmented(rooms.planes(), params), "walls"), 3);
+  rooms.floor(0, 0, 4.5, 4, 0);
+  EXPECT_EQ(report(segmented(rooms.planes()), "floors"), 1);
+}
+
 TEST(SegmentStructure, PositionStandsInForNormals) {
   PlanePrimitives planes = test::box_room().unsorted();
   for (auto& p : planes.primitives) p.plane = {-p.plane.normal, -p.plane.offset};
