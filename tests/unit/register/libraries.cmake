@@ -1,0 +1,1 @@
+list(APPEND libraries TBB::tbb atrium_io)
