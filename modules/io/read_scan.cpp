@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "modules/geometry/poisson_disk.hpp"
 #include "modules/io/decode.hpp"
+#include "modules/io/duplicates.hpp"
 #include "modules/io/read_geometry.hpp"
 
 namespace atrium::io {
@@ -26,13 +28,37 @@ void hint_at_unit(const std::string& path, const Cloud& cloud, const Context& co
                              path, extent.x(), extent.y(), extent.z()));
 }
 
+void warn_of_duplicates(const std::string& path, const Cloud& cloud, const Context& context) {
+  const double share = duplicate_share(cloud.points, context);
+  if (share > 0.1)
+    context.warn(fmt::format("{}: about {:.0f} % of the points lie exactly on others; filter.voxel_grid joins them",
+                             path, 100.0 * share));
+}
+
+/// As many samples as the mesh has vertices, unless the parameter says how many.
+Cloud sample(const RawGeometry& geometry, const ReadScan::Params& params, const Context& context) {
+  const Mesh mesh = decode_mesh(geometry, params.scale, context);
+  const std::size_t wanted = params.samples > 0 ? static_cast<std::size_t>(params.samples) : mesh.vertices.size();
+  if (wanted < 3) throw Error(fmt::format("{}: {} samples of the mesh", geometry.path, wanted), "three are the least");
+  if (mesh.triangles.empty())
+    throw Error(geometry.path + ": none of the mesh's triangles has finite corners", "mesh: vertices reads its points");
+  try {
+    return sample_poisson_disk(mesh, wanted, context);
+  } catch (const Error& error) {
+    throw Error(geometry.path + ": " + error.what(), error.help());
+  }
+}
+
 }  // namespace
 
 ReadScan::Out ReadScan::run(const In& /*in*/, const Params& params, Context& context) {
-  const RawGeometry geometry = read_geometry(params.path.path, context);
-  Cloud cloud = decode_cloud(geometry, params.scale, context);
+  const std::string& path = params.path.path;
+  const RawGeometry geometry = read_geometry(path, context);
+  const bool sampled = params.mesh == MeshUse::sample && !geometry.triangles.empty();
+  Cloud cloud = sampled ? sample(geometry, params, context) : decode_cloud(geometry, params.scale, context);
   set_sensor(geometry, params, cloud);
-  hint_at_unit(params.path.path, cloud, context);
+  hint_at_unit(path, cloud, context);
+  warn_of_duplicates(path, cloud, context);
   return {std::move(cloud)};
 }
 

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "files.hpp"
 #include "modules/io/read_mesh.hpp"
 #include "modules/io/read_scan.hpp"
@@ -137,6 +140,36 @@ TEST_F(MeshFiles, GeoreferencedMeshesStayExactOrAreRefused) {
   EXPECT_LT((back.origin + back.vertices[0] - mesh.origin - mesh.vertices[0]).norm(), 1e-8);
   EXPECT_CONTAINS(error_of([&] { write(mesh, "v.stl", true); }), "lose its millimetres");
   EXPECT_FALSE(std::filesystem::exists(path("v.stl")));
+}
+
+TEST_F(MeshFiles, AScanOfAMeshIsSampledOnItsFaces) {
+  Mesh mesh = tetrahedron();
+  mesh.origin = {500000, 5400000, 0};
+  write(mesh, "m.ply");
+  ReadScan::Params params;
+  params.path.path = path("m.ply");
+  EXPECT_EQ(ReadScan::run({}, params, context).cloud.size(), 4U);  // as many as vertices
+  params.samples = 500;
+  const Cloud cloud = ReadScan::run({}, params, context).cloud;
+  ASSERT_EQ(cloud.size(), 500U);
+  ASSERT_EQ(cloud.normals.size(), 500U);
+  EXPECT_EQ(cloud.colours.size(), 500U);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d p = cloud.origin + cloud.points[i].cast<double>() - mesh.origin;
+    // On one of the planes x = 0, y = 0, z = 0, or the slanted one.
+    const double slanted = p.x() / 1.5 + p.y() / 2.25 + p.z() / 0.1 - 1.0;
+    EXPECT_LT(std::min({std::abs(p.x()), std::abs(p.y()), std::abs(p.z()), 0.09 * std::abs(slanted)}), 1e-4);
+  }
+  params.mesh = ReadScan::MeshUse::vertices;
+  EXPECT_TRUE(ReadScan::run({}, params, context).cloud.normals.empty());
+}
+
+TEST_F(MeshFiles, AMeshWithoutSurfaceCannotBeSampled) {
+  ReadScan::Params params;
+  params.path.path = file("flat.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n");
+  EXPECT_CONTAINS(error_of([&] { ReadScan::run({}, params, context); }), "flat.obj: ");
+  params.path.path = file("nan.obj", "v 0 0 0\nv 1 0 1\nv nan 2 2\nf 1 2 3\n");
+  EXPECT_CONTAINS(error_of([&] { ReadScan::run({}, params, context); }), "nan.obj: ");
 }
 
 TEST_F(MeshFiles, EmptyMeshesAreValidFiles) {

@@ -84,6 +84,21 @@ TEST_F(Text, BrokenNumbersOfOldProgramsAreNotFinite) {
   EXPECT_TRUE(warned("3 of 6 points dropped")) << warnings();
 }
 
+TEST_F(Text, SaysWhenManyPointsLieOnOthers) {
+  std::string apart;
+  std::string together;
+  for (int i = 0; i < 50000; ++i) {
+    apart += std::to_string(0.001 * i) + " 1 2\n";
+    together += std::to_string(0.001 * (i % 30000)) + " 1 2\n";
+  }
+  read(apart);
+  EXPECT_TRUE(host->warnings.empty()) << warnings();
+  read(together);  // 20000 of 50000
+  ASSERT_TRUE(warned("% of the points lie exactly on others")) << warnings();
+  const std::string text = warnings();
+  EXPECT_NEAR(std::stod(text.substr(text.find("about ") + 6)), 40.0, 2.0);
+}
+
 TEST_F(Text, PiecesAreJoinedInOrder) {
   // Several megabytes, so several pieces; the lines have different lengths.
   std::string text;
