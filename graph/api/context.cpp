@@ -69,7 +69,7 @@ void Context::check_cancelled() const {
 }
 
 std::filesystem::path Context::output(const std::string& relative) const {
-  const std::filesystem::path target = std::filesystem::absolute(host_->output_folder() / relative);
+  std::filesystem::path target = std::filesystem::absolute(host_->output_folder() / relative);
   std::error_code error;
   std::filesystem::create_directories(target.parent_path(), error);
   if (error) throw Error("cannot make the folder " + target.parent_path().string() + ": " + error.message());
