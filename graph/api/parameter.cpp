@@ -192,10 +192,8 @@ bool is_textual(ParamKind kind) {
     case ParamKind::boolean:
     case ParamKind::integer:
     case ParamKind::number:
-    case ParamKind::numbers:
-      return false;
-    default:
-      return true;
+    case ParamKind::numbers: return false;
+    default: return true;
   }
 }
 
@@ -242,27 +240,18 @@ std::string bracketed(const std::vector<T>& items, F form) {
 
 std::string kind_name(const ParamInfo& info) {
   switch (info.kind) {
-    case ParamKind::boolean:
-      return "true or false";
-    case ParamKind::integer:
-      return info.unit.dimension == "number" ? "whole number" : std::string(info.unit.dimension);
-    case ParamKind::number:
-      return info.unit.dimension == "number" ? "number" : std::string(noun(info.unit.dimension));
-    case ParamKind::text:
-      return "text";
-    case ParamKind::choice:
-      return "one of " + join_words(info.choices, 40);
-    case ParamKind::input_path:
-      return "file that exists";
-    case ParamKind::output_path:
-      return "file to write, relative to the run's folder";
+    case ParamKind::boolean: return "true or false";
+    case ParamKind::integer: return info.unit.dimension == "number" ? "whole number" : std::string(info.unit.dimension);
+    case ParamKind::number: return info.unit.dimension == "number" ? "number" : std::string(noun(info.unit.dimension));
+    case ParamKind::text: return "text";
+    case ParamKind::choice: return "one of " + join_words(info.choices, 40);
+    case ParamKind::input_path: return "file that exists";
+    case ParamKind::output_path: return "file to write, relative to the run's folder";
     case ParamKind::numbers:
       return fmt::format("list of {}{}", info.length > 0 ? fmt::format("{} ", info.length) : "",
                          info.unit.dimension == "number" ? "numbers" : fmt::format("{}s", noun(info.unit.dimension)));
-    case ParamKind::texts:
-      return "list of texts";
-    case ParamKind::input_paths:
-      return "list of files that exist";
+    case ParamKind::texts: return "list of texts";
+    case ParamKind::input_paths: return "list of files that exist";
   }
   return {};
 }
@@ -283,45 +272,34 @@ std::string bounds_text(const ParamInfo& info) {
 ParamValue parse_param(const ParamInfo& info, const RawValue& raw) {
   check_shape(info, raw);
   switch (info.kind) {
-    case ParamKind::boolean:
-      return parse_boolean(info, raw.items.front());
-    case ParamKind::integer:
-      return parse_integer(info, raw.items.front());
-    case ParamKind::number:
-      return parse_number(info, raw.items.front());
-    case ParamKind::choice:
-      return parse_choice(info, raw.items.front());
+    case ParamKind::boolean: return parse_boolean(info, raw.items.front());
+    case ParamKind::integer: return parse_integer(info, raw.items.front());
+    case ParamKind::number: return parse_number(info, raw.items.front());
+    case ParamKind::choice: return parse_choice(info, raw.items.front());
     case ParamKind::numbers: {
       std::vector<double> values;
       for (const auto& item : raw.items) values.push_back(parse_number(info, item));
       return values;
     }
     case ParamKind::texts:
-    case ParamKind::input_paths:
-      return raw.items;
-    default:
-      return raw.items.front();
+    case ParamKind::input_paths: return raw.items;
+    default: return raw.items.front();
   }
 }
 
 std::string format_param(const ParamInfo& info, const ParamValue& value) {
   const auto number = [&](double v) { return quantity(v, info.unit); };
   switch (info.kind) {
-    case ParamKind::boolean:
-      return std::get<bool>(value) ? "true" : "false";
+    case ParamKind::boolean: return std::get<bool>(value) ? "true" : "false";
     case ParamKind::integer: {
       const auto whole = std::get<std::int64_t>(value);
       return info.unit.symbol.empty() ? fmt::format("{}", whole) : fmt::format("{} {}", whole, info.unit.symbol);
     }
-    case ParamKind::number:
-      return number(std::get<double>(value));
-    case ParamKind::numbers:
-      return bracketed(std::get<std::vector<double>>(value), number);
+    case ParamKind::number: return number(std::get<double>(value));
+    case ParamKind::numbers: return bracketed(std::get<std::vector<double>>(value), number);
     case ParamKind::texts:
-    case ParamKind::input_paths:
-      return bracketed(std::get<std::vector<std::string>>(value), yaml_text);
-    default:
-      return yaml_text(std::get<std::string>(value));
+    case ParamKind::input_paths: return bracketed(std::get<std::vector<std::string>>(value), yaml_text);
+    default: return yaml_text(std::get<std::string>(value));
   }
 }
 

@@ -261,7 +261,8 @@ bool parse_seed(std::string_view text, std::uint64_t& seed) {
 std::unique_ptr<Document> read_document(const std::filesystem::path& path, std::string name, std::size_t order,
                                         Findings& findings) {
   auto document = std::make_unique<Document>();
-  document->path = path;
+  std::error_code ignored;
+  document->identity = std::filesystem::weakly_canonical(path, ignored).string();
   document->source = {std::move(name), path.parent_path(), order};
   const YamlTree tree = read_yaml(path.string());
   for (const auto& problem : tree.problems)

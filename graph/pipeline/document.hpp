@@ -55,7 +55,7 @@ struct DocumentOutput {
 /// A pipeline file as it stands: its shape checked, nothing known of node types yet.
 struct Document {
   SourceFile source;
-  std::filesystem::path path;  ///< absolute
+  std::string identity;  ///< canonical path
   std::string summary;
   std::uint64_t seed = 1;
   std::vector<Setting> variables;

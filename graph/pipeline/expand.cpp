@@ -8,7 +8,7 @@
 namespace atrium {
 namespace {
 
-constexpr std::size_t most_nodes = 200'000;
+constexpr std::size_t most_nodes = 100'000;
 constexpr int deepest_chain = 32;
 
 std::vector<std::string> names_of(const std::vector<Setting>& settings) {
@@ -60,8 +60,7 @@ SettledValue settle(const Setting& setting, const Scope& scope, const SourceFile
 }
 
 void Expander::expand(const Document& root) {
-  std::error_code ignored;
-  by_path_.emplace(std::filesystem::weakly_canonical(root.path, ignored).string(), &root);
+  by_identity_.emplace(root.identity, &root);
   expansion_.scopes.emplace_back().document = &root;
   fill(expansion_.scopes.front());
   report_unknown_nodes();
@@ -130,19 +129,22 @@ void Expander::check_given_variables(const Scope& scope) {
     }
   const std::string address = scope.prefix.empty() ? "" : scope.prefix.substr(0, scope.prefix.size() - 1);
   for (const auto* set : overrides_.of(address)) {
-    if (known(set->name) || (scope.node == nullptr && set->name == "seed")) continue;
+    const bool outermost = scope.node == nullptr;
+    if (known(set->name) || set->name == (outermost ? "seed" : "type")) continue;
     std::vector<std::string> candidates = names;
-    if (scope.node == nullptr) candidates.emplace_back("seed");
+    if (outermost) candidates.emplace_back("seed");
+    std::string hint = findings_.suggest(set->name, candidates);
     for (const auto& node : scope.document->nodes)
-      if (node.id.text == set->name && scope.node == nullptr) candidates.push_back(node.id.text + ".PARAMETER");
-    const std::string hint = findings_.suggest(set->name, candidates);
+      if (outermost && node.id.text == set->name)
+        hint = fmt::format("a node's parameter: -s {}.PARAMETER=VALUE", set->name);
+    if (hint.empty()) hint = candidates.empty() ? "it has no variables" : "what can be set: " + join_words(candidates);
     const Where where =
         scope.node == nullptr ? Where{&scope.document->source, {}} : scope.parent->at(scope.node->id.place);
     findings_.error(where,
                     scope.node == nullptr
                         ? fmt::format("unknown variable '{}'", set->name)
                         : fmt::format("{} has no variable '{}'", scope.document->source.name, set->name),
-                    hint.empty() ? "variables: " + join_words(candidates) : hint, {set->note});
+                    hint, {set->note});
   }
 }
 
@@ -194,52 +196,62 @@ void Expander::open_pipeline(Scope& scope, const DocumentNode& node) {
 /// The sub-pipeline's file, read once; null when it cannot be opened or would open itself.
 const Document* Expander::document_of(const Scope& scope, const DocumentNode& node) {
   const std::filesystem::path path = (scope.document->source.folder / node.pipeline.text).lexically_normal();
-  std::error_code missing;
-  const std::filesystem::path canonical = std::filesystem::canonical(path, missing);
   const std::string name = (std::filesystem::path(scope.document->source.name).parent_path() / node.pipeline.text)
                                .lexically_normal()
                                .string();
-  if (missing || std::filesystem::is_directory(canonical, missing)) {
+  const auto [known, fresh] = identity_of_.try_emplace(path.string());
+  std::error_code missing;
+  if (fresh && std::filesystem::is_regular_file(path, missing))
+    known->second = std::filesystem::canonical(path, missing).string();
+  const std::string& identity = known->second;
+  if (identity.empty()) {
     findings_.error(scope.at(node.pipeline.place), fmt::format("no such pipeline file: {}", name),
                     "the path is relative to the file that it stands in");
     return nullptr;
   }
+  if (opens_itself(scope, node, identity, name)) return nullptr;
+  const auto [entry, unread] = by_identity_.try_emplace(identity, nullptr);
+  if (unread) {
+    auto document = read_document(path, name, expansion_.documents.size(), findings_);
+    entry->second = document.get();
+    if (document) expansion_.documents.push_back(std::move(document));
+  }
+  return entry->second;
+}
+
+bool Expander::opens_itself(const Scope& scope, const DocumentNode& node, const std::string& identity,
+                            const std::string& name) {
   std::string chain = name;
   int depth = 0;
   for (const Scope* outer = &scope; outer != nullptr; outer = outer->parent, ++depth) {
-    chain = outer->document->source.name + " → " + chain;
-    const bool itself = std::filesystem::equivalent(outer->document->path, canonical, missing);
+    chain.insert(0, outer->document->source.name + " → ");
+    const bool itself = outer->document->identity == identity;
     if (!itself && depth < deepest_chain) continue;
-    findings_.error(scope.at(node.pipeline.place), "a sub-pipeline opens itself: " + chain);
-    return nullptr;
+    findings_.error(scope.at(node.pipeline.place),
+                    itself ? "a sub-pipeline opens itself: " + chain : "sub-pipelines are nested too deep: " + chain);
+    return true;
   }
-  const auto [known, fresh] = by_path_.try_emplace(canonical.string(), nullptr);
-  if (fresh) {
-    auto document = read_document(path, name, expansion_.documents.size(), findings_);
-    known->second = document.get();
-    if (document) expansion_.documents.push_back(std::move(document));
-  }
-  return known->second;
+  return false;
 }
 
 void Expander::report_unknown_type(const Where& where, const std::string& type, std::vector<std::string> notes) {
   if (all_types_.empty()) {
     std::vector<std::string> problems;
     for (const auto* known : registry_.all(&problems)) all_types_.push_back(known->type);
+    modules_ = registry_.modules();
   }
   const std::size_t dot = type.find('.');
   const std::string module = type.substr(0, dot);
-  const std::vector<std::string> modules = registry_.modules();
   std::string message = fmt::format("unknown node type '{}'", type), help = findings_.suggest(type, all_types_);
   std::vector<std::string> siblings;
   for (const auto& known : all_types_)
     if (known.starts_with(module + ".")) siblings.push_back(known);
   if (dot == std::string::npos) {
     if (help.empty()) help = "a type is named module.name; atrium nodes lists them";
-  } else if (std::find(modules.begin(), modules.end(), module) == modules.end()) {
+  } else if (std::find(modules_.begin(), modules_.end(), module) == modules_.end()) {
     message += fmt::format(": there is no plugin '{}'", module);
     if (help.empty())
-      help = fmt::format("modules: {}; plugins are also looked for in ATRIUM_PLUGIN_PATH", join_words(modules, 40));
+      help = fmt::format("modules: {}; plugins are also looked for in ATRIUM_PLUGIN_PATH", join_words(modules_, 40));
   } else if (help.empty()) {
     help = "types of the module: " + join_words(siblings);
   }

@@ -84,6 +84,7 @@ class Expander {
   void add_node(Scope& scope, const DocumentNode& node);
   void open_pipeline(Scope& scope, const DocumentNode& node);
   const Document* document_of(const Scope& scope, const DocumentNode& node);
+  bool opens_itself(const Scope& scope, const DocumentNode& node, const std::string& identity, const std::string& name);
   void check_given_variables(const Scope& scope);
   void report_unknown_type(const Where& where, const std::string& type, std::vector<std::string> notes);
   void report_unknown_nodes();
@@ -92,8 +93,9 @@ class Expander {
   Overrides& overrides_;
   Registry& registry_;
   Findings& findings_;
-  std::unordered_map<std::string, const Document*> by_path_;
-  std::vector<std::string> all_types_;
+  std::unordered_map<std::string, std::string> identity_of_;      ///< of a path as it is written: its canonical form
+  std::unordered_map<std::string, const Document*> by_identity_;  ///< null: it could not be read
+  std::vector<std::string> all_types_, modules_;
 };
 
 /// Replaces variables and escapes in a value that stands in `scope`. `from` is what relative paths in it are relative

@@ -48,8 +48,7 @@ void Findings::warning(const Where& where, std::string message, std::string help
 }
 
 std::string Findings::suggest(std::string_view word, const std::vector<std::string>& candidates) {
-  constexpr int most = 100;
-  return suggestions_++ < most ? did_you_mean(word, candidates) : std::string{};
+  return suggestions_++ < most_suggestions ? did_you_mean(word, candidates) : std::string{};
 }
 
 std::vector<Diagnostic> Findings::sorted(std::vector<Item> items) {

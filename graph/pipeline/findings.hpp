@@ -32,6 +32,8 @@ class Findings {
 
   /// did_you_mean(), for the first hundred findings: a file full of errors must not take minutes.
   std::string suggest(std::string_view word, const std::vector<std::string>& candidates);
+  /// Whether it is worth listing candidates.
+  bool may_suggest() const { return suggestions_ < most_suggestions; }
 
   /// Sorted by place, each finding once (a sub-pipeline that is used twice has its mistakes twice).
   std::vector<Diagnostic> errors() const { return sorted(errors_); }
@@ -44,6 +46,7 @@ class Findings {
   };
   static Item item(const Where& where, std::string message, std::string help, std::vector<std::string> notes);
   static std::vector<Diagnostic> sorted(std::vector<Item> items);
+  static constexpr int most_suggestions = 100;
   std::vector<Item> errors_, warnings_;
   int suggestions_ = 0;
 };

@@ -81,7 +81,7 @@ std::vector<NodeType> load_plugin(const std::filesystem::path& file, const std::
 }  // namespace
 
 struct Registry::Impl {
-  std::vector<std::filesystem::path> folders = plugin_folders();
+  std::vector<std::filesystem::path> folders;
   std::map<std::string, NodeType, std::less<>> types;  // nodes of a map do not move
   std::set<std::string> loaded;
 
@@ -106,7 +106,10 @@ struct Registry::Impl {
   }
 };
 
-Registry::Registry() : impl_(std::make_unique<Impl>()) {}
+Registry::Registry() : Registry(plugin_folders()) {}
+Registry::Registry(std::vector<std::filesystem::path> folders) : impl_(std::make_unique<Impl>()) {
+  impl_->folders = std::move(folders);
+}
 Registry::~Registry() = default;
 
 const NodeType* Registry::find(const std::string& type) {

@@ -15,6 +15,8 @@ namespace atrium {
 class Registry {
  public:
   Registry();
+  /// Looks in these folders only.
+  explicit Registry(std::vector<std::filesystem::path> folders);
   ~Registry();
 
   /// The node type, or null when its plugin is there but does not have it, or no plugin of that module is there. Throws

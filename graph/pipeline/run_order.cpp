@@ -68,7 +68,7 @@ void report_cycles(const Expansion& expansion, const Graph& graph, Findings& fin
       path += fmt::format("{}.{} → ", source.path, source.type->outputs[edge->from.output].name);
     }
     findings.error(cycle.back()->where, fmt::format("the nodes form a cycle: {}{}", path, expansion.nodes[i].path),
-                   "an edge of it must go");
+                   "one of these edges must go");
   }
 }
 

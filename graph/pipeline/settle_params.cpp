@@ -159,7 +159,7 @@ class ParamReader {
   void input_path(std::string& path, const ParamInfo& info, const Where& where, const std::vector<std::string>& origin,
                   const SourceFile& base) {
     if (path.empty()) {
-      findings_.error(where, fmt::format("'{}' is an empty path", info.name), {}, origin);
+      findings_.error(where, fmt::format("'{}' is an empty path", info.name), describe_param(info), origin);
       return;
     }
     const std::filesystem::path full = (base.folder / path).lexically_normal();

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "graph/api/suggest.hpp"
 #include "graph/pipeline/expansion.hpp"
@@ -53,8 +54,9 @@ class Wirer {
         findings_.error(node.where(),
                         fmt::format("nothing uses the node '{}' ({})", node.source->id.text, node.type->type),
                         "wire one of its outputs, list it under `outputs:`, or remove the node", swap_notes(node));
+    const auto with_sinks = scopes_with_sinks();
     for (const auto& scope : expansion_.scopes)
-      if (scope.node != nullptr && !scope.used && !has_sink(scope))
+      if (scope.node != nullptr && !scope.used && !with_sinks.contains(&scope))
         findings_.error(scope.parent->at(scope.node->id.place),
                         fmt::format("nothing uses the sub-pipeline '{}'", scope.node->id.text),
                         "wire one of its outputs, list it under `outputs:`, or remove it");
@@ -124,9 +126,8 @@ class Wirer {
 
   void report_type(const Where& where, const Reference& source, const std::string& type, const std::string& target,
                    const std::string& wanted, std::vector<std::string> notes) {
-    findings_.error(where,
-                    fmt::format("'{}' is a {}, but the input {} takes a {}", text_of(source), type, target, wanted), {},
-                    std::move(notes));
+    findings_.error(where, fmt::format("'{}' is {}, but the input {} takes {}", text_of(source), type, target, wanted),
+                    {}, std::move(notes));
   }
 
   /// Follows a reference to the node that makes the value, through sub-pipelines. Only the first step is reported: the
@@ -164,8 +165,9 @@ class Wirer {
       if (reference == nullptr) return result;
       scope = &inner;
     }
-    findings_.error(start.at(first.place),
-                    fmt::format("'{}' leads through sub-pipelines back to itself", text_of(first)));
+    if (first.node != "inputs")  // the loop is where the sub-pipelines are wired, not in their files
+      findings_.error(start.at(first.place),
+                      fmt::format("'{}' leads through sub-pipelines back to itself", text_of(first)));
     return {};
   }
 
@@ -204,14 +206,18 @@ class Wirer {
 
   void report_unknown_node(const Scope& scope, const Reference& reference) {
     std::vector<std::string> names;
-    for (const auto& node : scope.document->nodes) names.push_back(node.id.text);
-    if (!scope.document->inputs.empty()) names.emplace_back("inputs");
+    if (findings_.may_suggest()) {
+      for (const auto& node : scope.document->nodes) names.push_back(node.id.text);
+      if (!scope.document->inputs.empty()) names.emplace_back("inputs");
+    }
     std::string help = findings_.suggest(reference.node, names);
     const std::string outer = reference.node.substr(0, reference.node.find('/'));
     if (const auto member = scope.members.find(outer); member != scope.members.end() && member->second.scope != nullptr)
       help = fmt::format("only the outputs of a sub-pipeline can be wired: '{}.OUTPUT'", outer);
     else if (help.empty() && variable_of(text_of(reference)))
       help = "variables stand for values, not for edges";
+    else if (help.empty() && !names.empty())
+      help = "nodes: " + join_words(names);
     findings_.error(scope.at(reference.place), fmt::format("unknown node '{}'", reference.node), std::move(help));
   }
 
@@ -292,10 +298,15 @@ class Wirer {
     }
   }
 
-  bool has_sink(const Scope& scope) const {
-    return std::any_of(expansion_.nodes.begin(), expansion_.nodes.end(), [&](const FlatNode& node) {
-      return node.path.starts_with(scope.prefix) && (node.type == nullptr || node.type->sink);
-    });
+  /// The sub-pipelines in which a node runs for its own sake.
+  std::unordered_set<const Scope*> scopes_with_sinks() const {
+    std::unordered_set<const Scope*> result;
+    for (const auto& node : expansion_.nodes) {
+      if (node.type != nullptr && !node.type->sink) continue;
+      for (const Scope* scope = node.scope; scope != nullptr; scope = scope->parent)
+        if (!result.insert(scope).second) break;
+    }
+    return result;
   }
 
   void check_inputs_used(const Scope& scope) {

@@ -39,7 +39,7 @@ std::string without_folder(std::string text) {
 }
 
 std::string findings(const std::filesystem::path& file) {
-  Registry registry;
+  Registry registry(std::vector<std::filesystem::path>{});
   test::add_test_nodes(registry);
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(folder);

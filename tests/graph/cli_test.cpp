@@ -1,0 +1,148 @@
+// The program as its user and scripts meet it: exit codes, what goes to stdout, what to stderr.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/graph/folder.hpp"
+
+namespace atrium {
+namespace {
+
+using Json = nlohmann::json;
+
+class CommandLine : public testing::Test {
+ protected:
+  struct Result {
+    int code;
+    std::string out, err;
+  };
+  Result run(const std::string& arguments) {
+    const std::string plugins = std::string(ATRIUM_PROGRAM) + "/../../tests/plugins";
+    const auto err = folder.path() / "stderr";
+    const std::string command = "cd '" + folder.path().string() + "' && ATRIUM_PLUGIN_PATH=$(realpath -m '" + plugins +
+                                "') '" + ATRIUM_PROGRAM + "' " + arguments + " 2>'" + err.string() + "'";
+    Result result;
+    FILE* pipe = ::popen(command.c_str(), "r");
+    char block[4096];
+    while (const std::size_t got = std::fread(block, 1, sizeof block, pipe)) result.out.append(block, got);
+    const int status = ::pclose(pipe);
+    result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    std::ostringstream text;
+    text << std::ifstream(err).rdbuf();
+    result.err = text.str();
+    return result;
+  }
+  test::Folder folder;
+  std::filesystem::path good = folder.write("good.yaml", R"(atrium: 1
+vars: {distance: 2 cm}
+nodes:
+  cloud: {type: test.make}
+  planes: {type: test.find, in: {cloud: cloud.cloud}, params: {distance: "${distance}"}}
+  shell/write: {type: test.write, in: {planes: planes.planes}}
+outputs: {planes: planes.planes}
+)");
+  std::filesystem::path bad = folder.write("bad.yaml", R"(atrium: 1
+nodes:
+  cloud: {type: test.mak}
+outputs: {planes: cloud.cloud}
+)");
+};
+
+TEST_F(CommandLine, CheckSaysOk) {
+  const Result result = run("check good.yaml -s planes.angle='3 deg' -s distance=1cm");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.out, "ok: 3 nodes\n");
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(CommandLine, CheckPutsFindingsOnStderr) {
+  const Result result = run("check bad.yaml");
+  EXPECT_EQ(result.code, 3);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, "bad.yaml:3:17: error: unknown node type 'test.mak'\n  help: did you mean 'test.make'?\n");
+}
+
+TEST_F(CommandLine, CheckGivesJson) {
+  const Result result = run("check bad.yaml --json");
+  EXPECT_EQ(result.code, 3);
+  EXPECT_EQ(result.err, "");
+  const Json report = Json::parse(result.out);
+  EXPECT_EQ(report["ok"], false);
+  EXPECT_EQ(report["errors"].at(0)["line"], 3);
+  EXPECT_EQ(report["errors"].at(0)["help"], "did you mean 'test.make'?");
+}
+
+TEST_F(CommandLine, CheckSaysWhatIsLeftToSet) {
+  folder.write("template.yaml",
+               "atrium: 1\nvars: {d: }\nnodes:\n  cloud: {type: test.make}\n  planes: {type: test.find, "
+               "in: {cloud: cloud.cloud}, params: {distance: \"${d}\"}}\noutputs: {p: planes.planes}\n");
+  EXPECT_EQ(run("check template.yaml").out, "ok: 2 nodes; to run it, set -s d=…\n");
+  EXPECT_EQ(run("check template.yaml -s d=1").out, "ok: 2 nodes\n");
+}
+
+TEST_F(CommandLine, WrongUseIsCodeTwo) {
+  for (const char* arguments : {"", "chek good.yaml", "check", "check good.yaml --jso", "check good.yaml -s",
+                                "nodes test.mak", "nodes nothing", "graph good.yaml --format svg"}) {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_EQ(result.out, "") << arguments;
+    EXPECT_NE(result.err.find("atrium: error: "), std::string::npos) << arguments;
+  }
+}
+
+TEST_F(CommandLine, AFileThatIsNotThereIsCodeThree) {
+  const Result result = run("check nowhere.yaml");
+  EXPECT_EQ(result.code, 3);
+  EXPECT_EQ(result.err, "nowhere.yaml: error: cannot read the file: no such file\n");
+}
+
+TEST_F(CommandLine, APluginThatCannotBeUsedIsCodeFive) {
+  folder.write("plugin.yaml", "atrium: 1\nnodes: {a: {type: stranger.any}}\n");
+  const Result result = run("check plugin.yaml");
+  EXPECT_EQ(result.code, 5);
+  EXPECT_NE(result.err.find("was built for another framework"), std::string::npos);
+}
+
+TEST_F(CommandLine, NodesShowsOneType) {
+  const Result result = run("nodes test.find");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.out.find("distance (length, 0 m to 10 m, default 0.5 m)"), std::string::npos);
+  EXPECT_NE(result.out.find("cloud (Cloud)"), std::string::npos);
+  const Json list = Json::parse(run("nodes test --json").out);
+  ASSERT_EQ(list.size(), 3U);
+  EXPECT_EQ(list[0]["params"][0]["unit"], "m");
+  EXPECT_EQ(list[0]["params"][0]["max"], 10.0);
+  EXPECT_NE(run("nodes test --markdown").out.find("| `distance` | length, 0 m to 10 m, default 0.5 m |"),
+            std::string::npos);
+}
+
+TEST_F(CommandLine, GraphDrawsNodesAndSubPipelines) {
+  const std::string dot = run("graph good.yaml").out;
+  EXPECT_NE(dot.find("n1 [label=\"planes\\ntest.find\"];"), std::string::npos);
+  EXPECT_NE(dot.find("n0 -> n1 [label=\"cloud\"];"), std::string::npos);
+  EXPECT_NE(dot.find("subgraph \"cluster_shell\""), std::string::npos);
+  const std::string mermaid = run("graph good.yaml --format mermaid").out;
+  EXPECT_EQ(mermaid.find("flowchart LR\n"), 0U);
+  EXPECT_NE(mermaid.find("n0 -- \"cloud\" --> n1"), std::string::npos);
+  EXPECT_EQ(run("graph bad.yaml").code, 3);
+}
+
+TEST_F(CommandLine, HelpGoesToStdout) {
+  const Result result = run("check --help");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.out.find("-s"), std::string::npos);
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(CommandLine, AFullDiskUnderStdoutIsAFailure) {
+  const Result result = run("nodes test >/dev/full");
+  EXPECT_EQ(result.code, 1);
+}
+
+}  // namespace
+}  // namespace atrium

@@ -1,0 +1,337 @@
+#include "graph/pipeline/pipeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/graph/folder.hpp"
+#include "tests/graph/test_nodes.hpp"
+
+namespace atrium {
+namespace {
+
+using test::Folder;
+
+class PipelineFile : public testing::Test {
+ protected:
+  PipelineFile() { test::add_test_nodes(registry); }
+
+  LoadResult load(const std::filesystem::path& file, const std::vector<std::string>& settings = {},
+                  LoadOptions options = {}) {
+    std::vector<Override> overrides;
+    for (const auto& text : settings) overrides.push_back({text, "-s " + text});
+    return load_pipeline(file, overrides, registry, options);
+  }
+  LoadResult load_text(const std::string& text, const std::vector<std::string>& settings = {}) {
+    return load(folder.write("p.yaml", text), settings);
+  }
+  static std::string messages(const LoadResult& result) {
+    std::string text;
+    for (const auto& error : result.errors) text += to_string(error) + "\n";
+    return text;
+  }
+  static std::vector<std::string> paths(const Pipeline& pipeline) {
+    std::vector<std::string> result;
+    for (const auto& node : pipeline.nodes) result.push_back(node.path);
+    return result;
+  }
+  static const PipelineNode& node(const Pipeline& pipeline, const std::string& path) {
+    for (const auto& n : pipeline.nodes)
+      if (n.path == path) return n;
+    throw std::runtime_error("no node " + path);
+  }
+  static ParamValue value(const Pipeline& pipeline, const std::string& path, const std::string& name) {
+    const auto& n = node(pipeline, path);
+    for (std::size_t i = 0; i < n.params.size(); ++i)
+      if (n.type->params[i].name == name) return n.params[i];
+    throw std::runtime_error("no parameter " + name);
+  }
+  static std::string text(const std::filesystem::path& path) { return path.string(); }
+
+  Folder folder;
+  Registry registry{std::vector<std::filesystem::path>{}};
+};
+
+const char* const small = R"(atrium: 1
+summary: A small one.
+seed: 18446744073709551615
+vars: {distance: 2 cm}
+nodes:
+  cloud: {type: test.make}
+  planes: {type: test.find, in: {cloud: cloud.cloud}, params: {distance: "${distance}", method: hough}}
+outputs: {planes: planes.planes}
+)";
+
+TEST_F(PipelineFile, IsReadWithDefaultsFilledIn) {
+  const LoadResult result = load_text(small);
+  ASSERT_TRUE(result.errors.empty()) << messages(result);
+  const Pipeline& pipeline = result.pipeline;
+  EXPECT_EQ(pipeline.summary, "A small one.");
+  EXPECT_EQ(pipeline.seed, 18446744073709551615U);
+  EXPECT_EQ(paths(pipeline), (std::vector<std::string>{"cloud", "planes"}));
+  EXPECT_EQ(value(pipeline, "planes", "distance"), ParamValue(0.02));
+  EXPECT_EQ(value(pipeline, "planes", "angle"), ParamValue(20.0));
+  EXPECT_EQ(value(pipeline, "planes", "method"), ParamValue(std::string("hough")));
+  ASSERT_EQ(pipeline.nodes[1].inputs.size(), 1U);
+  EXPECT_EQ(pipeline.nodes[1].inputs[0].at(0).node, 0U);
+  ASSERT_EQ(pipeline.outputs.size(), 1U);
+  EXPECT_EQ(pipeline.outputs[0].from.node, 1U);
+}
+
+TEST_F(PipelineFile, IsOrderedByItsEdgesThenByTheFile) {
+  const LoadResult result = load_text(R"(atrium: 1
+nodes:
+  last: {type: test.join, in: {clouds: [c.cloud, a.cloud, b.cloud]}}
+  a: {type: test.make}
+  d: {type: test.make}
+  b: {type: test.make}
+  c: {type: test.make}
+outputs: {last: last.cloud, d: d.cloud}
+)");
+  ASSERT_TRUE(result.errors.empty()) << messages(result);
+  EXPECT_EQ(paths(result.pipeline), (std::vector<std::string>{"c", "a", "b", "last", "d"}));
+  const auto& edges = node(result.pipeline, "last").inputs.at(0);
+  ASSERT_EQ(edges.size(), 3U);
+  EXPECT_EQ(edges[0].node, 0U);  // a repeated port keeps the order of the file
+  EXPECT_EQ(edges[1].node, 1U);
+  EXPECT_EQ(edges[2].node, 2U);
+}
+
+TEST_F(PipelineFile, FindsInputFilesRelativeToWhatSetsThem) {
+  const auto scan = folder.write("pipelines/a.ply", "");
+  folder.write("pipelines/sub/b.ply", "");
+  folder.write("pipelines/sub/c.ply", "");
+  folder.write("pipelines/sub/read.yaml", R"(atrium: 1
+vars: {first: , second: b.ply}
+nodes:
+  first: {type: test.read, params: {path: "${first}"}}
+  second: {type: test.read, params: {path: "${second}"}}
+  third: {type: test.read, params: {path: c.ply}}
+  all: {type: test.join, in: {clouds: [first.cloud, second.cloud, third.cloud]}}
+outputs: {cloud: all.cloud}
+)");
+  const auto file = folder.write("pipelines/p.yaml", R"(atrium: 1
+vars: {scan: a.ply}
+nodes:
+  read: {pipeline: sub/read.yaml, vars: {first: "${scan}"}}
+outputs: {cloud: read.cloud}
+)");
+  LoadResult result = load(file);
+  ASSERT_TRUE(result.errors.empty()) << messages(result);
+  EXPECT_EQ(value(result.pipeline, "read/first", "path"), ParamValue(text(scan)));
+  EXPECT_EQ(value(result.pipeline, "read/second", "path"), ParamValue(text(folder.path() / "pipelines/sub/b.ply")));
+  EXPECT_EQ(value(result.pipeline, "read/third", "path"), ParamValue(text(folder.path() / "pipelines/sub/c.ply")));
+
+  folder.write("here/mine.ply", "");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path() / "here");
+  result = load(file, {"scan=mine.ply", "read.second=mine.ply", "read/third.path=mine.ply"});
+  std::filesystem::current_path(before);
+  ASSERT_TRUE(result.errors.empty()) << messages(result);
+  for (const char* path : {"read/first", "read/second", "read/third"})
+    EXPECT_EQ(value(result.pipeline, path, "path"), ParamValue(text(folder.path() / "here/mine.ply")));
+}
+
+TEST_F(PipelineFile, OpensSubPipelines) {
+  folder.write("refine.yaml", R"(atrium: 1
+vars: {title: inner, unit: 3 cm}
+inputs: {planes: Planes, cloud: Cloud}
+nodes:
+  again: {type: test.find, in: {cloud: inputs.cloud}, params: {distance: "${unit}"}}
+  refined: {type: test.refine, in: {planes: inputs.planes}}
+  write: {type: test.write, in: {planes: refined.planes}, params: {title: "${title}", path: out/p.vg}}
+outputs: {planes: refined.planes, again: again.planes, cloud: inputs.cloud}
+)");
+  folder.write("twice.yaml", R"(atrium: 1
+inputs: {cloud: Cloud}
+nodes:
+  planes: {type: test.find, in: {cloud: inputs.cloud}}
+  one: {pipeline: refine.yaml, in: {planes: planes.planes, cloud: inputs.cloud}, vars: {title: one}}
+  two: {pipeline: refine.yaml, in: {planes: one.planes, cloud: one.cloud}}
+outputs: {planes: two.planes, again: two.again}
+)");
+  const LoadResult result = load_text(R"(atrium: 1
+nodes:
+  all: {pipeline: twice.yaml, in: {cloud: cloud.cloud}}
+  cloud: {type: test.make}
+  write: {type: test.write, in: {planes: all.again}}
+outputs: {planes: all.planes}
+)",
+                                      {"all/two.unit=4 cm", "all/one.title=first"});
+  ASSERT_TRUE(result.errors.empty()) << messages(result);
+  const Pipeline& pipeline = result.pipeline;
+  // all/one/again is exported by its file, but nobody reads it.
+  EXPECT_EQ(paths(pipeline), (std::vector<std::string>{"cloud", "all/planes", "all/one/refined", "all/one/write",
+                                                       "all/two/again", "all/two/refined", "all/two/write", "write"}));
+  EXPECT_EQ(value(pipeline, "all/one/write", "title"), ParamValue(std::string("first")));
+  EXPECT_EQ(value(pipeline, "all/two/write", "title"), ParamValue(std::string("inner")));
+  EXPECT_EQ(value(pipeline, "all/two/again", "distance"), ParamValue(0.04));
+  EXPECT_EQ(value(pipeline, "all/one/write", "path"), ParamValue(std::string("all/one/out/p.vg")));
+  const auto from = [&](const std::string& path) {
+    return pipeline.nodes[node(pipeline, path).inputs.at(0).at(0).node].path;
+  };
+  EXPECT_EQ(from("all/two/again"), "cloud");
+  EXPECT_EQ(from("all/two/refined"), "all/one/refined");
+  EXPECT_EQ(from("write"), "all/two/again");
+  EXPECT_EQ(pipeline.nodes[pipeline.outputs[0].from.node].path, "all/two/refined");
+}
+
+TEST_F(PipelineFile, ThatIsResolvedGivesTheSamePipeline) {
+  folder.write("scan $.ply", "");
+  folder.write("refine.yaml", R"(atrium: 1
+inputs: {planes: Planes}
+nodes:
+  refined: {type: test.refine, in: {planes: inputs.planes}}
+  write: {type: test.write, in: {planes: refined.planes}, params: {title: "all: of $${it}"}}
+outputs: {planes: refined.planes}
+)");
+  const LoadResult first = load_text(R"(atrium: 1
+summary: "Two: with 'quotes'"
+seed: 77
+vars: {scan: scan $.ply}
+nodes:
+  scan: {type: test.read, params: {path: "${scan}"}}
+  all: {type: test.join, in: {clouds: [scan.cloud, scan.cloud]}, params: {names: [a, "b, c"], weights: [0.1, 1e-30]}}
+  planes: {type: test.find, in: {cloud: all.cloud}, params: {angle: 0.3 rad, distance: 7 mm}}
+  shell: {pipeline: refine.yaml, in: {planes: planes.planes}}
+outputs: {planes: shell.planes}
+)");
+  ASSERT_TRUE(first.errors.empty()) << messages(first);
+  const std::string resolved = resolved_yaml(first.pipeline);
+  const Folder elsewhere;  // nothing in a resolved file depends on where it stands
+  const LoadResult second = load(elsewhere.write("resolved.yaml", resolved));
+  ASSERT_TRUE(second.errors.empty()) << messages(second) << resolved;
+  EXPECT_TRUE(second.warnings.empty());
+  EXPECT_EQ(paths(second.pipeline), paths(first.pipeline));
+  EXPECT_EQ(second.pipeline.seed, 77U);
+  EXPECT_EQ(second.pipeline.summary, "Two: with 'quotes'");
+  EXPECT_EQ(value(second.pipeline, "shell/write", "title"), ParamValue(std::string("all: of ${it}")));
+  EXPECT_EQ(value(second.pipeline, "shell/write", "path"), ParamValue(std::string("shell/planes.vg")));
+  for (std::size_t i = 0; i < first.pipeline.nodes.size(); ++i) {
+    EXPECT_EQ(second.pipeline.nodes[i].params, first.pipeline.nodes[i].params);
+    EXPECT_EQ(second.pipeline.nodes[i].type, first.pipeline.nodes[i].type);
+  }
+  EXPECT_EQ(resolved_yaml(second.pipeline), resolved);
+  EXPECT_TRUE(load(elsewhere.path() / "resolved.yaml", {"shell/write.title=other"}).errors.empty());
+}
+
+TEST_F(PipelineFile, TakesSettingsFromTheCommandLine) {
+  const LoadResult result =
+      load_text(small, {"planes.box=[1 cm, 2, 3]", "distance=1cm", "seed=7", "planes.refit=false"});
+  ASSERT_TRUE(result.errors.empty()) << messages(result);
+  EXPECT_EQ(result.pipeline.seed, 7U);
+  EXPECT_EQ(value(result.pipeline, "planes", "distance"), ParamValue(0.01));
+  EXPECT_EQ(value(result.pipeline, "planes", "refit"), ParamValue(false));
+  EXPECT_EQ(value(result.pipeline, "planes", "box"), ParamValue(std::vector<double>{0.01, 2, 3}));
+  EXPECT_EQ(value(load_text(small, {"planes.distance=3 mm"}).pipeline, "planes", "distance"), ParamValue(0.003));
+  EXPECT_EQ(value(load_text(small, {"planes.angle=2"}).pipeline, "planes", "angle"), ParamValue(2.0));
+}
+
+TEST_F(PipelineFile, ReplacesANodeTypeAndKeepsItsWiring) {
+  const LoadResult result = load_text(small, {"planes.type=test.grow", "planes.voxel=1 cm"});
+  ASSERT_TRUE(result.errors.empty()) << messages(result);
+  EXPECT_EQ(node(result.pipeline, "planes").type->type, "test.grow");
+  EXPECT_EQ(value(result.pipeline, "planes", "distance"), ParamValue(0.02));  // both types have it
+  EXPECT_EQ(value(result.pipeline, "planes", "voxel"), ParamValue(0.01));
+  ASSERT_EQ(result.warnings.size(), 1U);  // method is test.find's alone
+  EXPECT_EQ(result.warnings[0].message, "the parameter 'method' is ignored: test.grow has none of that name");
+  EXPECT_TRUE(to_string(result.warnings[0]).find("p.yaml:7:89: warning: ") != std::string::npos)
+      << to_string(result.warnings[0]);
+}
+
+TEST_F(PipelineFile, KeepsTheFilesParametersWhenATypeIsReplacedByItself) {
+  const LoadResult result = load_text(small, {"planes.type=test.find"});
+  ASSERT_TRUE(result.errors.empty()) << messages(result);
+  EXPECT_TRUE(result.warnings.empty());
+}
+
+TEST_F(PipelineFile, MayLeaveWhatItsUserGives) {
+  const auto file = folder.write("p.yaml", R"(atrium: 1
+vars: {scan: }
+inputs: {planes: Planes}
+nodes:
+  scan: {type: test.read, params: {path: "${scan}"}}
+  refined: {type: test.refine, in: {planes: inputs.planes, cloud: scan.cloud}}
+outputs: {planes: refined.planes}
+)");
+  const LoadResult look = load(file, {}, {.allow_missing = true});
+  EXPECT_TRUE(look.errors.empty()) << messages(look);
+  EXPECT_EQ(look.missing, (std::vector<std::string>{"inputs.planes", "scan"}));
+  EXPECT_EQ(look.pipeline.nodes.size(), 2U);
+  EXPECT_EQ(load(file).errors.size(), 2U);
+  EXPECT_TRUE(load(file, {"scan=" + file.string()}, {.allow_missing = true}).missing ==
+              std::vector<std::string>{"inputs.planes"});
+}
+
+TEST_F(PipelineFile, OfTenThousandNodesIsOrdered) {
+  std::string nodes = "atrium: 1\nnodes:\n";
+  constexpr int size = 10000;
+  for (int i = size - 1; i > 0; --i)
+    nodes += "  n" + std::to_string(i) + ": {type: test.join, in: {clouds: [n" + std::to_string(i - 1) + ".cloud, n" +
+             std::to_string(i / 2) + ".cloud]}}\n";
+  nodes += "  n0: {type: test.make}\noutputs: {cloud: n" + std::to_string(size - 1) + ".cloud}\n";
+  // n1 reads n0 twice: i / 2 is 0 as well.
+  const LoadResult result = load_text(nodes);
+  ASSERT_TRUE(result.errors.empty()) << result.errors.size() << to_string(result.errors.front());
+  ASSERT_EQ(result.pipeline.nodes.size(), static_cast<std::size_t>(size));
+  for (std::size_t i = 0; i < result.pipeline.nodes.size(); ++i)
+    for (const auto& port : result.pipeline.nodes[i].inputs)
+      for (const auto& edge : port) ASSERT_LT(edge.node, i);
+}
+
+TEST_F(PipelineFile, FullOfMistakesEndsInGoodTime) {
+  std::string nodes = "atrium: 1\nnodes:\n";
+  for (int i = 0; i < 10000; ++i)
+    nodes += "  node_" + std::to_string(i) + ": {type: test.find, in: {cloud: nod_" + std::to_string(i) + ".cloud}}\n";
+  EXPECT_EQ(load_text(nodes).errors.size(), 20000U);  // each: unknown node, and nothing uses it
+}
+
+TEST_F(PipelineFile, WhoseSubPipelinesMultiplyEnds) {
+  std::string open = "atrium: 1\nnodes:\n";
+  for (int i = 0; i < 20; ++i)
+    folder.write("level" + std::to_string(i) + ".yaml",
+                 "atrium: 1\nnodes:\n  a: {pipeline: level" + std::to_string(i + 1) + ".yaml}\n  b: {pipeline: level" +
+                     std::to_string(i + 1) + ".yaml}\noutputs: {a: a.a, b: b.a}\n");
+  folder.write("level20.yaml", "atrium: 1\nnodes: {c: {type: test.make}}\noutputs: {a: c.cloud}\n");
+  const LoadResult result = load(folder.path() / "level0.yaml");
+  ASSERT_FALSE(result.errors.empty());
+  EXPECT_NE(messages(result).find("the pipeline has more than 100000 nodes"), std::string::npos);
+}
+
+/// Whatever is in a file: the loader comes back, and says something about it or gives a pipeline.
+TEST_F(PipelineFile, WithAnyBytesNeverBreaksTheLoader) {
+  std::ifstream stream(std::string(ATRIUM_SOURCE_DIR) + "/pipelines/paper.yaml", std::ios::binary);
+  const std::string paper((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  ASSERT_FALSE(paper.empty());
+  Random random(1);
+  const std::string special = "{}[]:,&*!|>'\"%@`#-? \n\t$~<=\x01\xff";
+  for (int trial = 0; trial < 3000; ++trial) {
+    std::string text = trial % 2 == 0 ? small : paper;
+    if (trial % 5 == 0) text.resize(random.index(text.size()));
+    for (std::uint64_t edits = random.index(6); edits > 0 && !text.empty(); --edits) {
+      const std::size_t at = random.index(text.size());
+      switch (random.index(4)) {
+        case 0: text[at] = static_cast<char>(random.bits()); break;
+        case 1: text[at] = special[random.index(special.size())]; break;
+        case 2: text.insert(at, 1, special[random.index(special.size())]); break;
+        default: text.erase(at, random.index(20));
+      }
+    }
+    const LoadResult result = load_text(text);
+    EXPECT_TRUE(!result.errors.empty() || !result.pipeline.nodes.empty()) << text;
+  }
+}
+
+TEST_F(PipelineFile, TakesAnyTextAsASettingWithoutBreaking) {
+  Random random(2);
+  const std::string alphabet = "planes.distance=${}[]\"' /1cm\xff\n&*";
+  const auto file = folder.write("p.yaml", small);
+  for (int trial = 0; trial < 3000; ++trial) {
+    std::string text = trial % 2 == 0 ? "planes.distance=" : "";
+    for (std::uint64_t i = random.index(12); i > 0; --i) text += alphabet[random.index(alphabet.size())];
+    load(file, {text});
+  }
+}
+
+}  // namespace
+}  // namespace atrium

@@ -1,0 +1,2 @@
+// A library that is no plugin.
+int atrium_test_nothing() { return 0; }

@@ -1,0 +1,81 @@
+#include "graph/pipeline/registry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/graph/folder.hpp"
+#include "tests/graph/test_nodes.hpp"
+
+namespace atrium {
+namespace {
+
+const std::filesystem::path plugins = std::filesystem::path(ATRIUM_PROGRAM).parent_path() / "../tests/plugins";
+using Folders = std::vector<std::filesystem::path>;
+
+std::string problem(Registry& registry, const std::string& type) {
+  try {
+    registry.find(type);
+  } catch (const PluginError& error) {
+    return error.what();
+  }
+  return "none";
+}
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Registry, LoadsAPluginWhenATypeOfItIsAskedFor) {
+  Registry registry(Folders{plugins});
+  const NodeType* found = registry.find("test.find");
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(found->type, "test.find");
+  EXPECT_EQ(found->version, 2);
+  EXPECT_EQ(found->params.size(), 7U);
+  EXPECT_EQ(registry.find("test.find"), found);
+  EXPECT_EQ(registry.find("test.grow"), nullptr);
+  EXPECT_EQ(registry.find("nowhere.find"), nullptr);
+  EXPECT_EQ(registry.find("test"), nullptr);
+  EXPECT_EQ(registry.find(""), nullptr);
+  EXPECT_EQ(registry.find("../test.find"), nullptr);
+  EXPECT_EQ(registry.modules(), (std::vector<std::string>{"empty", "misnamed", "stranger", "test"}));
+}
+
+TEST(Registry, RefusesPluginsThatDoNotFit) {
+  Registry registry(Folders{plugins});
+  EXPECT_TRUE(contains(problem(registry, "stranger.any"), "was built for another framework"));
+  EXPECT_TRUE(contains(problem(registry, "misnamed.make"), "has the node type 'test.make'"));
+  EXPECT_TRUE(contains(problem(registry, "empty.any"), "is not an Atrium plugin"));
+  test::Folder folder;
+  folder.write("libatrium_text.so", "no library");
+  Registry other(Folders{folder.path()});
+  EXPECT_TRUE(contains(problem(other, "text.any"), "cannot load the plugin 'text'"));
+}
+
+TEST(Registry, ListsAllTypesAndWhatCannotBeLoaded) {
+  Registry registry(Folders{plugins});
+  EXPECT_THROW(registry.all(), PluginError);
+  std::vector<std::string> problems;
+  const auto types = registry.all(&problems);
+  EXPECT_EQ(problems.size(), 3U);
+  ASSERT_EQ(types.size(), 3U);
+  EXPECT_EQ(types[0]->type, "test.find");
+}
+
+TEST(Registry, TakesTheFirstFolderThatHasTheModule) {
+  test::Folder folder;
+  folder.write("libatrium_test.so", "no library");
+  Registry first(Folders{plugins, folder.path()});
+  EXPECT_NE(first.find("test.make"), nullptr);
+  Registry second(Folders{folder.path(), plugins});
+  EXPECT_THROW(second.find("test.make"), PluginError);
+}
+
+TEST(Registry, LooksInThePathOfTheEnvironment) {
+  ::setenv("ATRIUM_PLUGIN_PATH", ("/nowhere::" + plugins.string()).c_str(), 1);
+  Registry registry;
+  ::unsetenv("ATRIUM_PLUGIN_PATH");
+  EXPECT_NE(registry.find("test.make"), nullptr);
+  EXPECT_EQ(Registry().find("test.make"), nullptr);
+}
+
+}  // namespace
+}  // namespace atrium
