@@ -41,7 +41,7 @@ Eigen::Vector3d Building::Face::at(const Eigen::Vector2d& p) const {
 
 int Building::add_room(const std::string& name, int storey, const Ring2& outline, double floor_height) {
   const int index = static_cast<int>(rooms_.size());
-  rooms_.push_back({outline, floor_height, static_cast<int>(faces_.size()), {}, {}, {}});
+  rooms_.push_back({outline, floor_height, static_cast<int>(faces_.size()), {}, {}, {}, {}});
   scene_.truth.rooms.push_back({name, storey, to_space(outline, floor_height)});
   return index;
 }
@@ -169,7 +169,7 @@ void Building::note_opening(const Face& face, const Rectangle& r) {
                  {(r.right - r.left) / 2, depth / 2},
                  std::atan2(face.u.y(), face.u.x()),
                  r.bottom - room.floor_height};
-  (door ? room.doors : room.windows).push_back(zone);
+  (door ? room.doors : room.low_zones).push_back(zone);
 }
 
 void Building::add_reveal(const std::vector<Eigen::Vector3d>& front, const Eigen::Vector3d& depth, bool closed) {
@@ -263,9 +263,9 @@ SimulatedScene Building::finish() {
   }
   for (std::size_t i = 0; i < rooms_.size(); ++i) {
     constexpr double tripod = 1.5;
-    std::vector<Footprint> obstacles = rooms_[i].furniture;
-    for (const auto& p : scanner_places(rooms_[i].outline, obstacles, 8))
-      add_position(static_cast<int>(i), {p.x(), p.y(), rooms_[i].floor_height + tripod});
+    const Room& room = rooms_[i];
+    for (const auto& p : scanner_places(room.standing.empty() ? room.outline : room.standing, room.furniture, 8))
+      scene_.positions.push_back({static_cast<int>(i), {p.x(), p.y(), room.floor_height + tripod}});
   }
   return std::move(scene_);
 }

@@ -51,16 +51,21 @@ class Building {
   void add_polygon(std::int32_t surface, const std::vector<Eigen::Vector3d>& corners, const Colour& colour);
   /// Keeps later furniture and scanners of the room away.
   void occupy(int room, const Footprint& footprint) { rooms_[room].furniture.push_back(footprint); }
-  /// A scanner position besides those that finish() finds on the rooms' floors.
-  void add_position(int room, const Eigen::Vector3d& place) { scene_.positions.push_back({room, place}); }
+  /// Keeps what is taller than footprint.height away.
+  void limit_height(int room, const Footprint& footprint) { rooms_[room].low_zones.push_back(footprint); }
+  /// Where in the room scanners stand, if not anywhere on its floor.
+  void stand_within(int room, const Ring2& ring) { rooms_[room].standing = ring; }
+  /// A scanner position of no room (on stairs, say).
+  void add_position(const Eigen::Vector3d& place) { scene_.positions.push_back({-1, place}); }
 
   struct Room {
     Ring2 outline;
     double floor_height = 0;
     int first_face = 0;
     std::vector<Footprint> furniture;
-    std::vector<Footprint> doors;    ///< where a door needs its way
-    std::vector<Footprint> windows;  ///< where nothing tall may stand; height: of the sill above the floor
+    std::vector<Footprint> doors;      ///< where a door needs its way
+    std::vector<Footprint> low_zones;  ///< before windows and under slopes: nothing taller than its `height` may stand
+    Ring2 standing;                    ///< where a scanner finds headroom; empty: the whole outline
   };
   const Room& room(int index) const { return rooms_[index]; }
 

@@ -119,14 +119,10 @@ std::vector<Piece> pieces_of(RoomUse use) {
   switch (use) {
     case RoomUse::living:
       return {sofa, shelf, shelf, dining_table, low_shelf, low_table, chair, chair, chair, chair, lamp, plant};
-    case RoomUse::kitchen:
-      return {counter, fridge, dining_table, chair, chair, chair, chair};
-    case RoomUse::bedroom:
-      return {bed, wardrobe, nightstand, nightstand, low_shelf, chair, lamp};
-    case RoomUse::study:
-      return {desk, shelf, shelf, cabinet, chair, chair, plant};
-    case RoomUse::hall:
-      return {cabinet, low_shelf, plant};
+    case RoomUse::kitchen: return {counter, fridge, dining_table, chair, chair, chair, chair};
+    case RoomUse::bedroom: return {bed, wardrobe, nightstand, nightstand, low_shelf, chair, lamp};
+    case RoomUse::study: return {desk, shelf, shelf, cabinet, chair, chair, plant};
+    case RoomUse::hall: return {cabinet, low_shelf, plant};
   }
   return {};
 }
@@ -137,7 +133,7 @@ bool is_free(const Building::Room& room, const Footprint& place) {
     if (overlap(f, place, 0.06)) return false;
   for (const auto& f : room.doors)
     if (overlap(f, place, 0)) return false;
-  for (const auto& f : room.windows)
+  for (const auto& f : room.low_zones)
     if (f.height < place.height && overlap(f, place, 0)) return false;
   return true;
 }

@@ -58,7 +58,7 @@ struct Scan {
       param(&Params::pattern, "pattern", {{"spherical", Pattern::spherical}, {"uniform_area", Pattern::uniform_area}},
             "How points are spread: as by a scanner on a tripod, or evenly over what can be seen."),
       param(&Params::positions, "positions", count, within(1, 100),
-            "Scanner positions per room, as far as it has room."),
+            "Scanner positions per room, as far as it has room (and as many on stairs)."),
       param(&Params::lowest_elevation, "lowest_elevation", degrees, within(-90, 60),
             "Spherical pattern: below this elevation the scanner is blind."),
       param(&Params::max_range, "max_range", metres, within(0.5, 1000), "Surfaces further away give no points."),

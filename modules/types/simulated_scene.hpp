@@ -15,7 +15,7 @@ namespace atrium {
 /// A place where a scanner may stand.
 struct ScannerPosition {
   static constexpr auto members() { return std::tuple{&ScannerPosition::room, &ScannerPosition::place}; }
-  std::int32_t room = -1;  ///< index into truth.rooms
+  std::int32_t room = -1;  ///< index into truth.rooms; -1: of none (on stairs)
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
 };
 

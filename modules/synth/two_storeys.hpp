@@ -1,0 +1,43 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/simulated_scene.hpp"
+
+namespace atrium::synth {
+
+/// A furnished house of two storeys. Below: hall, living room, kitchen; above: landing, bedroom, study, their inner
+/// walls not above those below. A straight staircase along the hall's west wall leads through an opening in the slab;
+/// stairs and railing are objects, the sides of the opening a reveal. The hall's outer corner is (0, 0, 0).
+struct TwoStoreys {
+  static constexpr std::string_view type = "synth.two_storeys";
+  static constexpr std::string_view summary =
+      "A furnished house of two storeys with a staircase, with exact ground truth.";
+  struct In {};
+  struct Out {
+    SimulatedScene scene;
+  };
+  struct Params {
+    double width = 9.5;
+    double depth = 7.5;
+    double ceiling_height = 2.55;
+    double slab = 0.25;
+    double inner_wall = 0.12;
+    double outer_wall = 0.3;
+    double furniture = 1.0;
+  };
+  static constexpr auto inputs = std::tuple{};
+  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The house: z up, metres.")};
+  static constexpr auto params = std::tuple{
+      param(&Params::width, "width", metres, within(7.5, 30), "Inner size along x, inner walls included."),
+      param(&Params::depth, "depth", metres, within(7, 30), "Inner size along y."),
+      param(&Params::ceiling_height, "ceiling_height", metres, within(2.3, 3), "Floor to ceiling of both storeys."),
+      param(&Params::slab, "slab", metres, within(0.05, 0.6), "From the lower ceiling to the upper floor."),
+      param(&Params::inner_wall, "inner_wall", metres, within(0.02, 0.5), "Thickness of the walls between rooms."),
+      param(&Params::outer_wall, "outer_wall", metres, within(0.02, 1),
+            "Depth of the reveals of windows and entrance."),
+      param(&Params::furniture, "furniture", unitless, within(0, 3),
+            "How densely it is furnished: 0 empty, 1 an ordinary home."),
+  };
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::synth
