@@ -12,7 +12,7 @@ constexpr std::uint32_t leaf_size = 4;  // at most 7: three bits of a leaf's cod
 constexpr int bins = 12;
 // Deeper splits halve the number of triangles, which bounds the depth and with it the stack of the walks.
 constexpr int free_depth = 40;
-constexpr std::size_t stack_size = 4 * (free_depth + 32);
+constexpr std::size_t stack_size = std::size_t{4} * (free_depth + 32);
 
 struct Entry {
   float key;

@@ -175,7 +175,7 @@ void Building::note_opening(const Face& face, const Rectangle& r) {
 void Building::add_reveal(const std::vector<Eigen::Vector3d>& front, const Eigen::Vector3d& depth, bool closed) {
   const std::int32_t id = SimulatedScene::object_id(static_cast<std::size_t>(add_object("reveal")));
   for (std::size_t i = 0; i < front.size(); ++i) {
-    const Eigen::Vector3d a = front[i], b = front[(i + 1) % front.size()];
+    const Eigen::Vector3d &a = front[i], &b = front[(i + 1) % front.size()];
     add_polygon(id, {a, b, b + depth, a + depth}, reveal_colour);
   }
   if (!closed) return;

@@ -140,7 +140,7 @@ bool is_free(const Building::Room& room, const Footprint& place) {
 
 Footprint against_wall(const Ring2& outline, const Piece& piece, Random& random) {
   const auto side = random.index(outline.size());
-  const Eigen::Vector2d a = outline[side], b = outline[(side + 1) % outline.size()];
+  const Eigen::Vector2d &a = outline[side], &b = outline[(side + 1) % outline.size()];
   const Eigen::Vector2d along = (b - a).normalized(), inwards(-along.y(), along.x());
   const double gap = random.uniform(0.005, 0.04);
   const double u =

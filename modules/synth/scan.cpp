@@ -32,7 +32,7 @@ std::vector<Station> stations_of(const SimulatedScene& scene, const Scan::Params
   std::vector<Station> stations;
   std::vector<std::int64_t> taken(scene.truth.rooms.size() + 1, 0);
   for (const auto& position : scene.positions) {
-    if (taken[static_cast<std::size_t>(position.room + 1)]++ >= params.positions) continue;
+    if (taken[static_cast<std::size_t>(position.room) + 1]++ >= params.positions) continue;
     Eigen::Isometry3d drift = Eigen::Isometry3d::Identity();
     if (!stations.empty()) {
       Eigen::Vector3d shift, turn;

@@ -23,7 +23,7 @@ std::vector<Edge> edges_of(const std::vector<std::vector<Eigen::Vector2d>>& ring
   std::vector<Edge> edges;
   for (const auto& ring : rings)
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Eigen::Vector2d a = ring[i], b = ring[(i + 1) % ring.size()];
+      const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
       if (a.y() != b.y()) edges.push_back(a.y() < b.y() ? Edge{a, b} : Edge{b, a});
     }
   return edges;

@@ -47,7 +47,8 @@ void build_stairs(Building& b, int hall, int landing, const Stairs& s, double st
     b.add_box(railing, {x, at}, 0, {-0.02, -0.02, storey}, {0.02, 0.02, storey + 0.9}, rail_colour);
   b.add_box(railing, {0, 0}, 0, {x - 0.03, y - 0.03, storey + 0.9}, {x + 0.03, s.end, storey + 0.95}, rail_colour);
   b.add_box(railing, {0, 0}, 0, {0.02, y - 0.03, storey + 0.9}, {x - 0.03, y + 0.03, storey + 0.95}, rail_colour);
-  b.add_position({stair_width / 2, stair_start + tread * (s.steps / 2 + 0.5), s.rise * (s.steps / 2 + 1) + 1.5});
+  const int middle = s.steps / 2;  // a scanner stands on this tread
+  b.add_position({stair_width / 2, stair_start + tread * (middle + 0.5), s.rise * (middle + 1) + 1.5});
 }
 
 void pierce_window(Building& b, int room, Side side, const Eigen::Vector2d& at, double width, double sill, double top,
