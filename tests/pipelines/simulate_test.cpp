@@ -1,0 +1,43 @@
+// pipelines/simulate.yaml and pipelines/evaluate.yaml, run by the program on each scene.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/process.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace atrium::test {
+namespace {
+
+class Simulate : public testing::TestWithParam<std::string> {
+ protected:
+  ProcessResult atrium(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), ATRIUM_PROGRAM);
+    ProcessOptions options;
+    options.folder = folder.path();
+    return run_process(arguments, options);
+  }
+  TemporaryFolder folder;
+};
+
+TEST_P(Simulate, ScanAndTruthAreWrittenAndTheTruthIsPerfect) {
+  const std::string pipelines = ATRIUM_SOURCE_DIR "/pipelines/";
+  const auto simulated =
+      atrium({"run", pipelines + "simulate.yaml", "-s", "scene.type=synth." + GetParam(), "-s", "points=5000", "-s",
+              "yaw=23 deg", "-s", "tilt=2.5 deg", "-s", "offset=[500000, 5400000, 300]", "--out", "scan"});
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
+  EXPECT_GT(std::filesystem::file_size(folder / "scan/scan.ply"), 5000U * 12);
+  const auto evaluated = atrium({"run", pipelines + "evaluate.yaml", "-s", "structure=scan/truth.ply", "-s",
+                                 "truth=scan/truth.ply", "--out", "quality"});
+  ASSERT_EQ(evaluated.exit_code, 0) << evaluated.err;
+  const auto metrics = nlohmann::json::parse(read_text(folder / "quality/metrics.json"));
+  EXPECT_EQ(metrics["structure"]["b20mm"]["completeness"]["value"], 1.0);
+  EXPECT_EQ(metrics["structure"]["wall"]["b20mm"]["correctness"]["value"], 1.0);
+  EXPECT_GT(metrics["faces"]["triangles"]["value"], 12.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Simulate, testing::Values("room", "flat", "two_storeys", "attic"),
+                         [](const auto& scene) { return scene.param; });
+
+}  // namespace
+}  // namespace atrium::test
