@@ -94,7 +94,7 @@ void PointGrid::span(const std::vector<Eigen::Vector3f>& points, const Context& 
     double high = std::floor(static_cast<double>(box.high[axis]) * inverse_);
     if (high - low >= static_cast<double>(max_extent)) {
       const double middle = std::floor(median(points, axis) * inverse_);
-      low = std::max(low, middle - static_cast<double>(max_extent / 2));
+      low = std::max(low, middle - 0.5 * static_cast<double>(max_extent));
       high = std::min(high, low + static_cast<double>(max_extent - 1));
     }
     base_[axis] = low;

@@ -90,7 +90,7 @@ class Voxels {
   /// From the middle of a neighbourhood to its u-th voxel.
   Eigen::Vector3d offset(std::size_t u) const {
     const auto n = static_cast<int>(u);
-    return grid_.cell_size() * Eigen::Vector3d(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+    return grid_.cell_size() * Eigen::Vector3i(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1).cast<double>();
   }
   LocalPlane seen_from_middle(LocalPlane plane, std::size_t u) const {
     plane.offset -= plane.normal.dot(offset(u));

@@ -45,6 +45,7 @@ std::vector<Eigen::Vector2d> upright_columns(const std::vector<Eigen::Vector3f>&
 /// The height that the floors differ by: of the lowest 2 % of points.
 double floor_height(const std::vector<Eigen::Vector3f>& points) {
   std::vector<float> heights;
+  heights.reserve(points.size());
   for (const auto& p : points) heights.push_back(p.z());
   const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 50);
   std::nth_element(heights.begin(), low, heights.end());
@@ -61,6 +62,7 @@ struct Start {
 Start best_shift(const std::vector<Eigen::Vector2d>& source, const std::vector<Eigen::Vector2d>& target, double yaw) {
   const Eigen::Rotation2Dd turn(yaw);
   std::vector<Eigen::Vector2d> turned;
+  turned.reserve(source.size());
   for (const auto& s : source) turned.push_back(turn * s);
   // Shifts are counted around that which brings the middles together.
   Eigen::Array2d middle = Eigen::Array2d::Zero();
