@@ -92,20 +92,17 @@ std::optional<FloatPlane> LocalizedSampler::triple(Random& random, std::uint32_t
 
 void LocalizedSampler::improve(Candidate& candidate) const {
   // A triple's plane is tilted by the noise; the plane fitted to its support is closer to the surface, and finds more.
-  for (int i = 0; i < 3; ++i) {
-    const Moments moments = subsets_[0].moments(candidate.plane, tolerance_);
-    if (moments.count < 3) return;
-    Candidate better = candidate;
+  constexpr int most_steps = 3;
+  Moments moments = subsets_[0].moments(candidate.plane, tolerance_);
+  for (int step = 0; step < most_steps && moments.count >= 3; ++step) {
     const Plane fit = fit_plane(moments).plane;
-    better.plane = {fit.normal.cast<float>(), static_cast<float>(fit.offset)};
-    if (better.plane.normal.dot(candidate.plane.normal) < 0) {
-      better.plane.normal = -better.plane.normal;
-      better.plane.offset = -better.plane.offset;
-    }
-    better.supporters = subsets_[0].count(better.plane, tolerance_);
-    if (better.supporters <= candidate.supporters) return;
-    const bool converged = better.supporters < candidate.supporters + candidate.supporters / 16;
-    candidate = better;
+    const double sign = fit.normal.dot(candidate.plane.normal.cast<double>()) < 0 ? -1 : 1;
+    const FloatPlane better{(sign * fit.normal).cast<float>(), static_cast<float>(sign * fit.offset)};
+    moments = subsets_[0].moments(better, tolerance_);
+    if (moments.count <= candidate.supporters) return;
+    const bool converged = moments.count < candidate.supporters + candidate.supporters / 16;
+    candidate.plane = better;
+    candidate.supporters = static_cast<std::uint32_t>(moments.count);
     if (converged) return;
   }
 }
@@ -126,7 +123,7 @@ std::vector<Candidate> LocalizedSampler::draw(std::size_t count, double min_supp
       c.scored = 1;
       c.supporters = subsets_[0].count(c.plane, tolerance_);
       estimate_support(c, subsets_);
-      if (c.upper < 0.5 * min_support) continue;
+      if (c.expected < 0.5 * min_support) continue;
       improve(c);
       estimate_support(c, subsets_);
       if (c.upper >= min_support) chunks[chunk].push_back(drawn);

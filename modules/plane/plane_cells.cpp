@@ -6,11 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "graph/api/random.hpp"
-
 namespace atrium::plane {
 
-PlaneCells::PlaneCells(const Eigen::Vector3d& normal, double reach) : table_(1024, absent) {
+PlaneCells::PlaneCells(const Eigen::Vector3d& normal, double reach) : tile_table_(64, absent) {
   // All points of a cell are within reach of each other.
   const double edge = reach / std::sqrt(2.0);
   const Eigen::Vector3d u = normal.unitOrthogonal();
@@ -23,13 +21,23 @@ Eigen::Vector2f PlaneCells::position(const Eigen::Vector3f& p) const {
   return {std::clamp(u_.dot(p), -limit, limit), std::clamp(v_.dot(p), -limit, limit)};
 }
 
-PlaneCells::Key PlaneCells::key(const Eigen::Vector2f& at) {
-  return pack(static_cast<std::int32_t>(std::floor(at.x())), static_cast<std::int32_t>(std::floor(at.y())));
+PlaneCells::Index PlaneCells::index(const Eigen::Vector2f& at) {
+  return {static_cast<std::int32_t>(std::floor(at.x())), static_cast<std::int32_t>(std::floor(at.y()))};
+}
+
+std::size_t PlaneCells::place_in_tile(Index i) {
+  constexpr std::uint32_t mask = (1U << tile_bits) - 1;
+  return (static_cast<std::uint32_t>(i.u) & mask) << tile_bits | (static_cast<std::uint32_t>(i.v) & mask);
+}
+
+std::uint64_t PlaneCells::tile_key(Index i) {
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i.u >> tile_bits)) << 32U |
+         static_cast<std::uint32_t>(i.v >> tile_bits);
 }
 
 std::uint32_t PlaneCells::add(const Eigen::Vector3f& p) {
   const Eigen::Vector2f at = position(p);
-  const std::uint32_t cell = insert(key(at));
+  const std::uint32_t cell = insert(index(at));
   if (cell == first_.size()) {
     first_.push_back(absent);
     filled_.push_back(0);
@@ -52,38 +60,45 @@ bool PlaneCells::linked(std::uint32_t a, std::uint32_t b) const {
   return false;
 }
 
-std::size_t PlaneCells::slot(Key key) const {
-  const std::size_t mask = table_.size() - 1;
-  std::size_t s = mix_seed(key, 0) & mask;
-  while (table_[s] != absent && keys_[table_[s]] != key) s = (s + 1) & mask;
+std::size_t PlaneCells::slot(std::uint64_t tile) const {
+  const std::size_t mask = tile_table_.size() - 1;
+  std::size_t s = (tile * 0x9e3779b97f4a7c15ULL >> 32U) & mask;
+  while (tile_table_[s] != absent && tile_keys_[tile_table_[s]] != tile) s = (s + 1) & mask;
   return s;
 }
 
-std::uint32_t PlaneCells::find(Key key) const { return table_.empty() ? absent : table_[slot(key)]; }
+std::uint32_t PlaneCells::find(Index i) const {
+  const std::uint32_t tile = tile_table_[slot(tile_key(i))];
+  return tile == absent ? absent : cells_[tile * tile_cells + place_in_tile(i)];
+}
 
-std::uint32_t PlaneCells::insert(Key key) {
-  // Points come along a space-filling curve: most are in the cell of the point before.
-  if (last_ != absent && last_key_ == key) return last_;
+std::uint32_t PlaneCells::insert(Index i) {
+  const std::uint64_t key = tile_key(i);
   std::size_t s = slot(key);
-  if (table_[s] == absent) {
-    if (2 * keys_.size() >= table_.size()) {
+  if (tile_table_[s] == absent) {
+    if (2 * tile_keys_.size() >= tile_table_.size()) {
       grow();
       s = slot(key);
     }
-    table_[s] = static_cast<std::uint32_t>(keys_.size());
-    keys_.push_back(key);
+    tile_table_[s] = static_cast<std::uint32_t>(tile_keys_.size());
+    tile_keys_.push_back(key);
+    cells_.resize(cells_.size() + tile_cells, absent);
   }
-  last_key_ = key;
-  return last_ = table_[s];
+  std::uint32_t& cell = cells_[tile_table_[s] * tile_cells + place_in_tile(i)];
+  if (cell == absent) {
+    cell = static_cast<std::uint32_t>(indices_.size());
+    indices_.push_back(i);
+  }
+  return cell;
 }
 
 void PlaneCells::grow() {
-  table_.assign(4 * table_.size(), absent);
-  for (std::uint32_t i = 0; i < keys_.size(); ++i) table_[slot(keys_[i])] = i;
+  tile_table_.assign(4 * tile_table_.size(), absent);
+  for (std::uint32_t i = 0; i < tile_keys_.size(); ++i) tile_table_[slot(tile_keys_[i])] = i;
 }
 
 std::vector<std::uint32_t> PlaneCells::components() const {
-  std::vector<std::uint32_t> parent(keys_.size());
+  std::vector<std::uint32_t> parent(indices_.size());
   std::iota(parent.begin(), parent.end(), 0U);
   const auto root = [&](std::uint32_t i) {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
@@ -93,14 +108,14 @@ std::vector<std::uint32_t> PlaneCells::components() const {
   constexpr std::array<std::array<std::int32_t, 2>, 10> steps{
       {{1, 0}, {0, 1}, {1, 1}, {1, -1}, {2, 0}, {0, 2}, {2, 1}, {1, 2}, {2, -1}, {1, -2}}};
   for (const auto& [du, dv] : steps)
-    for (std::uint32_t i = 0; i < keys_.size(); ++i) {
-      const std::uint32_t other = find(neighbour(keys_[i], du, dv));
+    for (std::uint32_t i = 0; i < indices_.size(); ++i) {
+      const std::uint32_t other = find({indices_[i].u + du, indices_[i].v + dv});
       if (other == absent) continue;
       const std::uint32_t a = root(i);
       const std::uint32_t b = root(other);
       if (a != b && linked(i, other)) parent[std::max(a, b)] = std::min(a, b);
     }
-  for (std::uint32_t i = 0; i < keys_.size(); ++i) parent[i] = root(i);
+  for (std::uint32_t i = 0; i < indices_.size(); ++i) parent[i] = root(i);
   return parent;
 }
 
@@ -108,11 +123,11 @@ PlaneCells PlaneCells::dilated(const std::vector<bool>& chosen) const {
   PlaneCells result;
   result.u_ = u_;
   result.v_ = v_;
-  result.table_.assign(1024, absent);
-  for (std::uint32_t i = 0; i < keys_.size(); ++i) {
+  result.tile_table_.assign(64, absent);
+  for (std::uint32_t i = 0; i < indices_.size(); ++i) {
     if (!chosen[i]) continue;
     for (std::int32_t du = -1; du <= 1; ++du)
-      for (std::int32_t dv = -1; dv <= 1; ++dv) result.insert(neighbour(keys_[i], du, dv));
+      for (std::int32_t dv = -1; dv <= 1; ++dv) result.insert({indices_[i].u + du, indices_[i].v + dv});
   }
   return result;
 }

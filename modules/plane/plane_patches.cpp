@@ -75,36 +75,26 @@ Plane refitted(const Moments& moments, const Eigen::Vector3d& side) {
 
 }  // namespace
 
-std::optional<FittedPatch> fit_patch(FloatPlane plane, const RandomSubsets& subsets, const Tolerance& tolerance,
-                                     const Connectivity& connectivity, const Context& context) {
-  // On part of the points first: fewer points lie further apart, hence the longer reach.
-  const std::size_t part = std::max<std::size_t>(1, subsets.size() - 1);
+std::optional<FittedPatch> fit_patch(const FloatPlane& plane, const RandomSubsets& subsets, std::size_t part,
+                                     const Tolerance& tolerance, const Connectivity& connectivity,
+                                     const Context& context) {
+  FittedPatch result;
+  result.support = subsets.support(plane, tolerance, part, context);
+  if (std::all_of(result.support.begin(), result.support.end(), [](const auto& s) { return s.empty(); }))
+    return std::nullopt;
+  double reach = connectivity.cluster_distance > 0 ? connectivity.cluster_distance
+                                                   : automatic_distance(result.support, subsets, connectivity.spacing);
+  // Fewer points lie further apart.
   double sampled = 0;
   for (std::size_t k = 0; k < part; ++k) sampled += static_cast<double>(subsets[k].live);
-  const double widening = std::sqrt(static_cast<double>(subsets.live()) / std::max(1.0, sampled));
-  FittedPatch result;
-  for (int step = 0; step < 3; ++step) {
-    const bool last = step == 2;
-    Eigen::Vector3d normal = plane.normal.cast<double>().normalized();
-    result.support = subsets.support(plane, tolerance, last ? subsets.size() : part, context);
-    if (std::all_of(result.support.begin(), result.support.end(), [](const auto& s) { return s.empty(); })) {
-      if (last) return std::nullopt;
-      continue;
-    }
-    const double reach = connectivity.cluster_distance > 0
-                             ? connectivity.cluster_distance
-                             : automatic_distance(result.support, subsets, connectivity.spacing);
-    result.patch.cells = keep_largest_component(result.support, subsets, normal, last ? reach : reach * widening);
-    const Moments moments = moments_of(result.support, subsets);
-    result.points = moments.count;
-    if (moments.count < 3) {
-      if (last) return std::nullopt;
-      continue;
-    }
-    result.mean = moments.mean();
-    result.patch.plane = refitted(moments, normal);
-    plane = {result.patch.plane.normal.cast<float>(), static_cast<float>(result.patch.plane.offset)};
-  }
+  reach *= std::sqrt(static_cast<double>(subsets.live()) / std::max(1.0, sampled));
+  const Eigen::Vector3d normal = plane.normal.cast<double>().normalized();
+  result.patch.cells = keep_largest_component(result.support, subsets, normal, reach);
+  const Moments moments = moments_of(result.support, subsets);
+  if (moments.count < 3) return std::nullopt;
+  result.points = moments.count;
+  result.mean = moments.mean();
+  result.patch.plane = refitted(moments, normal);
   return result;
 }
 

@@ -23,9 +23,10 @@ struct FittedPatch {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< of its points
 };
 
-/// Refits the plane to its support, on ever more points, and keeps the largest connected component (Schnabel et
-/// al., 4.4). Nothing if that component has fewer than three points.
-std::optional<FittedPatch> fit_patch(FloatPlane plane, const RandomSubsets& subsets, const Tolerance& tolerance,
-                                     const Connectivity& connectivity, const Context& context);
+/// The largest connected component of the plane's support in the first `part` subsets, and the plane fitted to it
+/// (Schnabel et al., 4.4). Nothing if the component has fewer than three points.
+std::optional<FittedPatch> fit_patch(const FloatPlane& plane, const RandomSubsets& subsets, std::size_t part,
+                                     const Tolerance& tolerance, const Connectivity& connectivity,
+                                     const Context& context);
 
 }  // namespace atrium::plane

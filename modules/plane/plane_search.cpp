@@ -13,6 +13,9 @@ constexpr std::size_t least_batch = 256;
 constexpr std::size_t largest_batch = 4096;
 constexpr std::uint64_t batch_streams = 1U << 20U;  // below: streams of the divisions
 constexpr int competitions = 16;
+constexpr double telling_score = 8;  // on the first subset: less may be chance
+
+FloatPlane to_float(const Plane& plane) { return {plane.normal.cast<float>(), static_cast<float>(plane.offset)}; }
 
 }  // namespace
 
@@ -47,12 +50,28 @@ std::vector<Patch> PlaneSearch::run() {
   return patches;
 }
 
-bool PlaneSearch::confident(double points) const { return std::exp(-points * coverage_) <= settings_.probability; }
+/// Whether a plane of `points` points would have been drawn by now: P(n, s) >= 1 - probability (Schnabel et al.,
+/// equation 2).
+bool PlaneSearch::confident(double points) const {
+  double coverage = 0;
+  for (const Coverage& c : coverage_)
+    if (points >= c.least_points) coverage += c.sum;
+  return std::exp(-points * coverage) <= settings_.probability;
+}
 
 void PlaneSearch::divide() {
   subsets_ = std::make_unique<RandomSubsets>(order_, owner_, context_.random(divisions_++).bits(), context_);
   sampler_ = std::make_unique<LocalizedSampler>(*subsets_, finest_sampled_level, settings_.tolerance);
-  coverage_ = 0;
+  // What was fitted refers to the old subsets.
+  fitted_.clear();
+  std::vector<Candidate> kept;
+  for (; !candidates_.empty(); candidates_.pop()) {
+    kept.push_back(candidates_.top());
+    kept.back().patch = -1;
+  }
+  candidates_ = Queue(Smaller(), std::move(kept));
+  const double share = static_cast<double>((*subsets_)[0].live) / std::max(1.0, static_cast<double>(subsets_->live()));
+  coverage_.push_back({0, subsets_->size() == 1 ? 0 : telling_score / share});
   drawn_ = 0;
 }
 
@@ -64,8 +83,8 @@ void PlaneSearch::draw() {
   }
   drawn_ += count;
   // P(n) = n / (N d 2^(k-1)) with k = 3 points (Schnabel et al., equation 9).
-  coverage_ += static_cast<double>(count) /
-               (static_cast<double>(subsets_->live()) * static_cast<double>(sampler_->levels()) * 4);
+  coverage_.back().sum += static_cast<double>(count) /
+                          (static_cast<double>(subsets_->live()) * static_cast<double>(sampler_->levels()) * 4);
 }
 
 void PlaneSearch::rescore(Candidate& candidate) const {
@@ -81,34 +100,58 @@ std::optional<FittedPatch> PlaneSearch::extract() {
     Candidate best = candidates_.top();
     if (best.round == round_ && !confident(best.expected)) return std::nullopt;
     candidates_.pop();
+    bool keep = true;
     if (best.round != round_) {
-      // Points have gone since: the old score was an upper bound.
-      rescore(best);
-      if (best.upper >= min_points_) candidates_.push(best);
+      if (best.patch < 0 || !renew(best)) rescore(best);  // points have gone since: the old score was an upper bound
     } else if (best.patch >= 0) {
-      return std::move(fitted_[static_cast<std::size_t>(best.patch)]);
-    } else if (shadowed(best)) {
-      if (best.upper >= min_points_) candidates_.push(best);
-    } else if (compete(best, budget)) {
-      if (best.upper >= min_points_) candidates_.push(best);
-    } else if (auto found = fit(best)) {
-      return found;
+      Fitted& taken = fitted_[static_cast<std::size_t>(best.patch)];
+      taken.sample.clear();
+      return std::move(taken.found);
+    } else if (!shadowed(best) && !compete(best, budget)) {
+      keep = fit(best);
     }
+    if (keep && best.upper >= min_points_) candidates_.push(best);
   }
   return std::nullopt;
 }
 
-/// Nearly the same plane as one that was fitted already has no larger component than that one: it waits behind it.
+/// Whether the candidate's fitted component still holds after other planes took points; its size is then up to date.
+bool PlaneSearch::renew(Candidate& candidate) {
+  constexpr double tolerable_loss = 0.02;
+  Fitted& fitted = fitted_[static_cast<std::size_t>(candidate.patch)];
+  FittedPatch& found = fitted.found;
+  std::size_t left = 0;
+  for (std::size_t k = 0; k < found.support.size(); ++k) {
+    const PointColumns& columns = (*subsets_)[k].columns;
+    std::erase_if(found.support[k], [&](std::uint32_t i) { return !columns.is_live(i); });
+    left += found.support[k].size();
+  }
+  const bool holds = static_cast<double>(left) >= (1 - tolerable_loss) * static_cast<double>(found.points);
+  if (!holds) fitted.sample.clear();
+  found.points = left;
+  candidate.round = round_;
+  candidate.expected = candidate.lower = candidate.upper = static_cast<double>(left);
+  return holds;
+}
+
+/// A candidate that shares much of its support with a component that was fitted already is a worse version of it and
+/// waits behind it: once that one's points are out, it is scored again.
 bool PlaneSearch::shadowed(Candidate& candidate) const {
-  for (const FittedPatch& other : fitted_) {
-    const auto points = static_cast<double>(other.points);
-    const Plane& plane = other.patch.plane;
-    if (candidate.expected <= points * 0.999) continue;
-    if (plane.normal.dot(candidate.plane.normal.cast<double>()) < 0.999) continue;
-    const double distance = candidate.plane.normal.cast<double>().dot(other.mean) + candidate.plane.offset;
-    if (std::abs(distance) > settings_.tolerance.distance) continue;
-    candidate.expected = points * 0.999;
-    candidate.upper = std::min(candidate.upper, points);
+  for (const Fitted& other : fitted_) {
+    const double behind = 0.999 * static_cast<double>(other.found.points);
+    if (other.sample.empty() || candidate.expected <= behind) continue;
+    const auto shared =
+        static_cast<double>(std::count_if(other.sample.begin(), other.sample.end(), [&](const Eigen::Vector3f& p) {
+          return std::abs(candidate.plane.normal.dot(p) + candidate.plane.offset) <= settings_.tolerance.distance;
+        }));
+    // What is too small to be taken will never go: only its twins are worth nothing.
+    const double enough = behind >= min_points_ ? 0.3 : 0.9;
+    if (shared < enough * static_cast<double>(other.sample.size())) continue;
+    if (other.found.patch.plane.normal.dot(candidate.plane.normal.cast<double>()) < settings_.tolerance.min_cosine)
+      continue;
+    if (behind < min_points_ && candidate.expected > 1.2 * other.expected) continue;
+    candidate.expected = behind;
+    candidate.upper = std::min(candidate.upper, behind);
     return true;
   }
   return false;
@@ -125,33 +168,46 @@ bool PlaneSearch::compete(Candidate& candidate, int& budget) {
   return true;
 }
 
-/// The candidate's largest component if that is still better than all others; else it goes back with its true size.
-std::optional<FittedPatch> PlaneSearch::fit(Candidate candidate) {
-  auto found = fit_patch(candidate.plane, *subsets_, settings_.tolerance, connectivity_, context_);
-  if (!found) return std::nullopt;
-  const auto points = static_cast<double>(found->points);
-  if (points < min_points_) {
-    fitted_.push_back(std::move(*found));  // so that nobody tries it again
-    return std::nullopt;
+/// Gives the candidate its largest component and that one's size; false: it has none. Fits on part of the points first:
+/// often that shows that the surface is known already.
+bool PlaneSearch::fit(Candidate& candidate) {
+  const std::size_t part = std::max<std::size_t>(1, subsets_->size() - 1);
+  for (int step = 0; step < 2; ++step) {
+    const auto found = fit_patch(candidate.plane, *subsets_, part, settings_.tolerance, connectivity_, context_);
+    if (!found) continue;
+    candidate.plane = to_float(found->patch.plane);
+    if (shadowed(candidate)) return true;
   }
-  if (candidates_.empty() || points >= candidates_.top().expected) return found;
-  candidate.expected = candidate.lower = candidate.upper = points;
-  candidate.patch = static_cast<std::int32_t>(fitted_.size());
-  fitted_.push_back(std::move(*found));
-  candidates_.push(candidate);
-  return std::nullopt;
+  auto found = fit_patch(candidate.plane, *subsets_, subsets_->size(), settings_.tolerance, connectivity_, context_);
+  if (!found) return false;
+  candidate.plane = to_float(found->patch.plane);
+  fitted_.push_back({std::move(*found), candidate.expected, {}});
+  take_sample(fitted_.back());
+  candidate.patch = static_cast<std::int32_t>(fitted_.size()) - 1;
+  candidate.expected = candidate.lower = candidate.upper = static_cast<double>(fitted_.back().found.points);
+  return true;
+}
+
+void PlaneSearch::take_sample(Fitted& fitted) const {
+  constexpr std::size_t size = 64;
+  const std::size_t step = std::max<std::size_t>(1, fitted.found.points / size);
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < fitted.found.support.size(); ++k) {
+    const auto& part = fitted.found.support[k];
+    for (; next < part.size(); next += step) fitted.sample.push_back((*subsets_)[k].columns.point(part[next]));
+    next -= part.size();
+  }
 }
 
 void PlaneSearch::take_out(const FittedPatch& found, std::int32_t number) {
   for (std::size_t k = 0; k < found.support.size(); ++k)
     for (const std::uint32_t i : found.support[k]) owner_[(*subsets_)[k].place[i]] = number;
   subsets_->take_out(found.support);
-  fitted_.clear();
   ++round_;
   if (2 * subsets_->live() < subsets_->built()) divide();
   // The plane may have further components.
   Candidate rest;
-  rest.plane = {found.patch.plane.normal.cast<float>(), static_cast<float>(found.patch.plane.offset)};
+  rest.plane = to_float(found.patch.plane);
   rescore(rest);
   if (rest.upper >= min_points_) candidates_.push(rest);
 }

@@ -28,19 +28,34 @@ class PlaneSearch {
   std::vector<Patch> run();
 
  private:
+  struct Fitted {
+    FittedPatch found;
+    double expected = 0;                  ///< of the candidate that led to it
+    std::vector<Eigen::Vector3f> sample;  ///< some of its points; none when it is taken or has changed
+  };
+
   bool confident(double points) const;
   void divide();
   void draw();
   void rescore(Candidate& candidate) const;
   std::optional<FittedPatch> extract();
   bool compete(Candidate& candidate, int& budget);
-  std::optional<FittedPatch> fit(Candidate candidate);
+  bool fit(Candidate& candidate);
+  void take_sample(Fitted& fitted) const;
+  bool renew(Candidate& candidate);
   bool shadowed(Candidate& candidate) const;
   void take_out(const FittedPatch& found, std::int32_t number);
 
+  /// Draws that could tell planes of `least_points` or more from chance: `sum` is that of 1 / (N d 2^(k-1)) over them,
+  /// so that a plane of n points was missed with probability e^(-n sum).
+  struct Coverage {
+    double sum = 0;
+    double least_points = 0;
+  };
   struct Smaller {
     bool operator()(const Candidate& a, const Candidate& b) const { return a.expected < b.expected; }
   };
+  using Queue = std::priority_queue<Candidate, std::vector<Candidate>, Smaller>;
 
   const MortonOrder& order_;
   const Connectivity& connectivity_;
@@ -50,12 +65,12 @@ class PlaneSearch {
   std::vector<std::int32_t> owner_;
   std::unique_ptr<RandomSubsets> subsets_;
   std::unique_ptr<LocalizedSampler> sampler_;
-  std::priority_queue<Candidate, std::vector<Candidate>, Smaller> candidates_;
-  std::vector<FittedPatch> fitted_;  ///< of this round
+  Queue candidates_;
+  std::vector<Fitted> fitted_;  ///< since the last division, those taken and those too small included
   std::uint32_t round_ = 0;
   std::uint64_t divisions_ = 0, batches_ = 0;
   std::size_t drawn_ = 0;
-  double coverage_ = 0;  ///< Σ over the draws of 1 / (N d 2^(k−1)): a plane of n points was missed with e^(−n·coverage)
+  std::vector<Coverage> coverage_;  ///< one for each division
 };
 
 }  // namespace atrium::plane

@@ -1,6 +1,7 @@
 #include "modules/plane/random_subsets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "graph/api/random.hpp"
@@ -8,16 +9,25 @@
 namespace atrium::plane {
 namespace {
 
-constexpr double first_subset = 8192;
+constexpr double first_subset = 4096;
 constexpr double growth = 8;
 constexpr std::uint32_t leaf_size = 32;
 constexpr std::size_t chunk_size = 65536;
 constexpr std::uint8_t none = 255;
 
-bool supports(const PointColumns& c, std::size_t i, const FloatPlane& plane, const Tolerance& tolerance) {
-  const float d = plane.normal.x() * c.x[i] + plane.normal.y() * c.y[i] + plane.normal.z() * c.z[i] + plane.offset;
-  const float cosine = plane.normal.x() * c.nx[i] + plane.normal.y() * c.ny[i] + plane.normal.z() * c.nz[i];
-  return std::abs(d) <= tolerance.distance && cosine >= tolerance.min_cosine;
+/// Writes which points of the range support the plane; returns how many.
+std::uint32_t collect(const PointColumns& c, std::uint32_t begin, std::uint32_t end, const FloatPlane& plane,
+                      const Tolerance& tolerance, std::uint32_t* hits) {
+  const Eigen::Vector3f n = plane.normal;
+  std::uint32_t count = 0;
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const float d = std::abs(n.x() * c.x[i] + n.y() * c.y[i] + n.z() * c.z[i] + plane.offset);
+    const float cosine = n.x() * c.nx[i] + n.y() * c.ny[i] + n.z() * c.nz[i];
+    hits[count] = i;
+    count += static_cast<std::uint32_t>(d <= tolerance.distance) &
+             static_cast<std::uint32_t>(cosine >= tolerance.min_cosine);
+  }
+  return count;
 }
 
 std::uint32_t count_range(const PointColumns& c, std::uint32_t begin, std::uint32_t end, const FloatPlane& plane,
@@ -63,9 +73,14 @@ std::uint32_t RandomSubset::count(const FloatPlane& plane, const Tolerance& tole
 Moments RandomSubset::moments(const FloatPlane& plane, const Tolerance& tolerance) const {
   Moments sum;
   if (octree.nodes().empty()) return sum;
+  std::array<std::uint32_t, leaf_size> hits;
   octree.visit_slab(0, plane, tolerance.distance, [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i)
-      if (supports(columns, i, plane, tolerance)) sum.add(columns.point(i).cast<double>());
+    // Leaves of many points in one place can be larger than leaf_size.
+    for (; begin < end; begin += leaf_size) {
+      const std::uint32_t count =
+          collect(columns, begin, std::min(begin + leaf_size, end), plane, tolerance, hits.data());
+      for (std::uint32_t k = 0; k < count; ++k) sum.add(columns.point(hits[k]).cast<double>());
+    }
   });
   return sum;
 }
@@ -152,8 +167,10 @@ Support RandomSubsets::support(const FloatPlane& plane, const Tolerance& toleran
     context.parallel_chunks(blocks.size(), group, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
         s.octree.visit_slab(blocks[i], plane, tolerance.distance, [&](std::uint32_t b, std::uint32_t e) {
-          for (std::uint32_t p = b; p < e; ++p)
-            if (supports(s.columns, p, plane, tolerance)) found[chunk].push_back(p);
+          auto& out = found[chunk];
+          const std::size_t before = out.size();
+          out.resize(before + (e - b));
+          out.resize(before + collect(s.columns, b, e, plane, tolerance, out.data() + before));
         });
     });
     for (const auto& part : found) result[k].insert(result[k].end(), part.begin(), part.end());
