@@ -40,6 +40,26 @@ float spacing_of(const PointColumns& columns, std::size_t begin, std::size_t cou
 
 }  // namespace
 
+float LocalSpacing::median() const {
+  std::vector<float> values = spacings_;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double LocalSpacing::reach(const std::vector<std::uint32_t>& places) const {
+  constexpr std::size_t samples = 64;
+  constexpr double least = 0.03;
+  constexpr double reach_per_spacing = 1.05;
+  std::vector<float> values;
+  const std::size_t step = std::max<std::size_t>(1, places.size() / samples);
+  for (std::size_t i = 0; i < places.size(); i += step) values.push_back(at(places[i]));
+  if (values.empty()) return least;
+  const auto upper = values.begin() + static_cast<std::ptrdiff_t>(3 * values.size() / 4);
+  std::nth_element(values.begin(), upper, values.end());
+  return std::max(least, reach_per_spacing * static_cast<double>(*upper));
+}
+
 LocalSpacing::LocalSpacing(const MortonOrder& order, const Context& context) {
   const std::size_t total = order.index.size();
   stride_ = std::max(window, (total + most_windows - 1) / most_windows);

@@ -6,25 +6,19 @@
 namespace atrium::plane {
 namespace {
 
-constexpr double least_distance = 0.03;
-constexpr double distance_per_spacing = 1.05;
-
-/// The distance at which the points of this support are connected, when all of the cloud's points are there.
-double automatic_distance(const Support& support, const RandomSubsets& subsets, const LocalSpacing& spacing) {
+/// Some places in the order of the points of this support.
+std::vector<std::uint32_t> some_places(const Support& support, const RandomSubsets& subsets) {
   constexpr std::size_t samples = 64;
   std::size_t total = 0;
   for (const auto& part : support) total += part.size();
   const std::size_t step = std::max<std::size_t>(1, total / samples);
-  std::vector<float> spacings;
+  std::vector<std::uint32_t> places;
   std::size_t next = 0;
   for (std::size_t k = 0; k < support.size(); ++k) {
-    for (; next < support[k].size(); next += step) spacings.push_back(spacing.at(subsets[k].place[support[k][next]]));
+    for (; next < support[k].size(); next += step) places.push_back(subsets[k].place[support[k][next]]);
     next -= support[k].size();
   }
-  if (spacings.empty()) return least_distance;
-  const auto upper = spacings.begin() + static_cast<std::ptrdiff_t>(3 * spacings.size() / 4);
-  std::nth_element(spacings.begin(), upper, spacings.end());
-  return std::max(least_distance, distance_per_spacing * *upper);
+  return places;
 }
 
 /// Reduces the support to its largest component; the cells are those of the component and what touches them.
@@ -82,8 +76,8 @@ std::optional<FittedPatch> fit_patch(const FloatPlane& plane, const RandomSubset
   result.support = subsets.support(plane, tolerance, part, context);
   if (std::all_of(result.support.begin(), result.support.end(), [](const auto& s) { return s.empty(); }))
     return std::nullopt;
-  double reach = connectivity.cluster_distance > 0 ? connectivity.cluster_distance
-                                                   : automatic_distance(result.support, subsets, connectivity.spacing);
+  double reach = connectivity.cluster_distance;
+  if (reach == 0) reach = connectivity.spacing.reach(some_places(result.support, subsets));
   // Fewer points lie further apart.
   double sampled = 0;
   for (std::size_t k = 0; k < part; ++k) sampled += static_cast<double>(subsets[k].live);

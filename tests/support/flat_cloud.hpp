@@ -126,7 +126,8 @@ inline std::vector<Face> furnished_flat() {
       const double x = xs[i][0];
       const double y = ys[j][0];
       furniture({x + 2.2, y + 1.2, 0}, {1.4, 0.8, 0.74});  // table
-      furniture({x + 0.01, y + 2.4, 0}, {0.6, 0.8, 1.9});  // wardrobe at the wall
+      furniture({x + 0.01, y + 2.4, 0}, {0.6, 0.8, 1.9});  // wardrobe at the wall, which hides its back
+      faces.erase(faces.end() - 4);
       furniture({x + 3.2, y + 2.4, 0}, {0.9, 0.7, 0.45});  // chest
       furniture({x + 1.0, y + 0.3, 0}, {0.5, 0.4, 0.9});   // shelf
     }

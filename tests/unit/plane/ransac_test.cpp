@@ -112,7 +112,7 @@ TEST(PlaneRansac, TakesTheLargestPlanesFirst) {
 }
 
 TEST(PlaneRansac, SameBytesWithAnyNumberOfThreads) {
-  const Cloud cloud = sample(furnished_flat(), {.points = 60000});
+  const Cloud cloud = sample(furnished_flat(), {.points = 40000});
   const std::string expected = content_hash(find(cloud));
   for (const std::size_t threads : {1, 2, 4}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

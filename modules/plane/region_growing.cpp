@@ -1,0 +1,121 @@
+#include "modules/plane/region_growing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "modules/plane/assignment.hpp"
+#include "modules/plane/free_side.hpp"
+#include "modules/plane/grow_regions.hpp"
+#include "modules/plane/local_spacing.hpp"
+#include "modules/plane/region_patches.hpp"
+
+namespace atrium::plane {
+namespace {
+
+constexpr std::uint32_t leaf_size = 32;
+constexpr double least_voxel = 0.05;
+constexpr std::uint32_t least_level = 2;   // of a voxel above the order's cells
+constexpr double voxel_per_spacing = 1.2;  // some four points in a voxel that a surface crosses
+constexpr double least_distance = 0.002;
+constexpr double distance_per_residual = 2.5;
+constexpr int passes = 2;
+
+struct Settings {
+  std::uint32_t level = least_level;
+  double cell = least_voxel / (1U << least_level);
+  VoxelGrid::Planarity planarity;
+  GrowthLimits limits;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::uint32_t automatic_level(const LocalSpacing& spacing) {
+  const double doublings = std::log2(std::max(1.0, voxel_per_spacing * spacing.median() / least_voxel));
+  return least_level + static_cast<std::uint32_t>(std::clamp(std::round(doublings), 0.0, 12.0));
+}
+
+/// 2.5 times the noise, as the neighbourhoods of flat voxels show it: a voxel alone can cut the noise in half.
+double automatic_distance(const VoxelGrid& grid) {
+  constexpr std::size_t samples = 1000;
+  std::vector<std::uint32_t> flat;
+  for (std::uint32_t i = 0; i < grid.voxels().size(); ++i)
+    if (grid.voxels()[i].planar) flat.push_back(i);
+  if (flat.empty()) return least_distance;
+  std::vector<double> residuals;
+  for (std::size_t k = 0; k < flat.size(); k += std::max<std::size_t>(1, flat.size() / samples)) {
+    Moments moments = grid.voxels()[flat[k]].moments;
+    grid.visit_neighbours(flat[k], [&](std::uint32_t other) { moments += grid.voxels()[other].moments; });
+    residuals.push_back(std::sqrt(fit_plane(moments).variances[0]));
+  }
+  return std::max(least_distance, distance_per_residual * median(residuals));
+}
+
+/// The patches among the points that have no owner yet.
+std::vector<Patch> find_patches(const Cloud& cloud, const MortonOrder& order, const LocalSpacing& spacing,
+                                const std::vector<std::int32_t>& owner, const Settings& settings,
+                                double cluster_distance, const Context& context) {
+  const VoxelGrid grid(order, settings.cell, settings.level, owner, settings.planarity, context);
+  const std::vector<Region> regions = grow_regions(grid, settings.limits, context);
+  std::vector<std::uint32_t> surface(grid.voxels().size(), VoxelGrid::none);
+  for (std::uint32_t i = 0; i < regions.size(); ++i)
+    for (const std::uint32_t v : regions[i].voxels) surface[v] = i;
+  const FreeSide free_side(cloud, order, grid, std::move(surface));
+  const RegionPatches splitter{order, grid, owner, spacing, cluster_distance, settings.limits};
+  std::vector<std::vector<Patch>> found(regions.size());
+  context.parallel_chunks(regions.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+    found[i] = splitter.patches(regions[i], static_cast<std::uint32_t>(i), cloud.has_normals() ? nullptr : &free_side);
+  });
+  std::vector<Patch> patches;
+  for (auto& part : found) std::move(part.begin(), part.end(), std::back_inserter(patches));
+  return patches;
+}
+
+}  // namespace
+
+RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Context& context) {
+  const Cloud& cloud = *in.cloud;
+  if (cloud.size() < 3)
+    throw Error("a plane needs at least 3 points, the cloud has " + std::to_string(cloud.size()),
+                "look at what the nodes before this one have filtered away");
+  Settings settings;
+  if (params.voxel_size > 0) settings.cell = params.voxel_size / (1U << least_level);
+  const MortonOrder order(cloud, settings.cell, context);
+  const LocalSpacing spacing(order, context);
+  if (params.voxel_size == 0) settings.level = automatic_level(spacing);
+  std::vector<std::int32_t> owner(cloud.size(), -1);
+  GrowthLimits& limits = settings.limits;
+  limits.distance = params.distance;
+  if (params.distance == 0) {
+    settings.planarity.max_residual = least_voxel;
+    limits.distance =
+        automatic_distance(VoxelGrid(order, settings.cell, settings.level, owner, settings.planarity, context));
+  }
+  settings.planarity.max_residual = limits.distance;
+  limits.min_cosine = std::cos(params.angle * std::numbers::pi / 180);
+  limits.min_points = params.min_points > 0 ? static_cast<std::size_t>(std::max(3, params.min_points))
+                                            : std::max<std::size_t>(50, cloud.size() / 2000);
+
+  const PointOctree octree(order.columns, order.codes, leaf_size, context);
+  constexpr float any_normal = -2;
+  const Tolerance tolerance{static_cast<float>(limits.distance), any_normal};
+  std::vector<Patch> patches;
+  for (int pass = 0; pass < passes; ++pass) {
+    std::vector<Patch> found = find_patches(cloud, order, spacing, owner, settings, params.cluster_distance, context);
+    context.progress((pass + 1.0) / (passes + 1));
+    if (found.empty()) break;
+    std::move(found.begin(), found.end(), std::back_inserter(patches));
+    owner = assign_points(order, octree, patches, tolerance, context);
+  }
+  PlanePrimitives planes = fit_primitives(in.cloud, order, owner, patches, limits.min_points, context);
+  if (params.max_planes > 0 && planes.primitives.size() > static_cast<std::size_t>(params.max_planes))
+    planes.primitives.resize(static_cast<std::size_t>(params.max_planes));
+  return {std::move(planes)};
+}
+
+}  // namespace atrium::plane

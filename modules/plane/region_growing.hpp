@@ -1,0 +1,64 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/plane_primitives.hpp"
+
+namespace atrium::plane {
+
+/// Finds the planes of a cloud by region growing on voxels: an alternative to plane.ransac that needs no normals.
+///
+/// 1. Second moments of the points of each voxel; voxels whose points lie in a plane are seeds, the flattest first.
+/// 2. A region takes neighbouring voxels whose points lie near its plane, and is refitted from the summed moments.
+///    Neighbouring regions that are one plane are merged.
+/// 3. A region's connected components (as in plane.ransac) are patches; each point goes to the nearest patch.
+/// 4. The same again with the points that are left, for small surfaces in voxels that larger ones had spoilt.
+/// 5. Least-squares fit of each patch to its points.
+///
+/// Normals point to the side from which the surface was seen: the mean of the points' normals where the cloud has them;
+/// else to the sensors where it has those; else to the side where there is room in front of the surface (ceilings down,
+/// floors up, walls into their rooms). No random numbers: the seed changes nothing.
+///
+/// Errors: fewer than 3 points. A cloud without planes gives no primitives. Source: voxel-based growing after A.-V. Vo
+/// et al., Octree-based region growing for point cloud segmentation, ISPRS J. 104, 2015.
+struct RegionGrowing {
+  static constexpr std::string_view type = "plane.region_growing";
+  static constexpr std::string_view summary = "Finds planes by growing regions of flat voxels; needs no normals.";
+  struct In {
+    Input<Cloud> cloud;
+  };
+  struct Out {
+    PlanePrimitives planes;
+  };
+  struct Params {
+    int max_planes = 0;
+    double voxel_size = 0;
+    double distance = 0.02;
+    double cluster_distance = 0;
+    double angle = 25;
+    int min_points = 0;
+  };
+  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points; normals only turn the planes.")};
+  static constexpr auto outputs =
+      std::tuple{port(&Out::planes, "planes",
+                      "Primitives over the same cloud, by falling number of inliers; normals to the side seen.")};
+  static constexpr auto params = std::tuple{
+      param(&Params::max_planes, "max_planes", count, within(0, 1e6),
+            "Keep this many planes, the largest (the paper's number of primitives); 0: all."),
+      param(
+          &Params::voxel_size, "voxel_size", metres, within(0, 10),
+          "Edge of the voxels: less than half of the thinnest wall. 0: 5 cm, doubled until a voxel on a surface holds "
+          "enough points."),
+      param(&Params::distance, "distance", metres, within(0, 10),
+            "Largest distance of a point from its plane. 0: 2.5 times the noise, which is the median residual around "
+            "flat voxels."),
+      param(&Params::cluster_distance, "cluster_distance", metres, within(0, 10),
+            "Points of a plane nearer to each other than this are connected, wider gaps make two planes. 0: 3 cm, or "
+            "what "
+            "the cloud's spacing around the plane wants where that is more."),
+      param(&Params::angle, "angle", degrees, within(1, 89),
+            "Largest angle between a flat voxel's plane and that of the region which takes it."),
+      param(&Params::min_points, "min_points", count, within(0, 1e9),
+            "Smallest plane. 0: one in 2000 of the points, at least 50.")};
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::plane

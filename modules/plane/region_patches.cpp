@@ -1,0 +1,57 @@
+#include "modules/plane/region_patches.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace atrium::plane {
+
+std::vector<std::uint32_t> RegionPatches::support(const Region& region) const {
+  std::vector<std::uint32_t> near = region.voxels;
+  near.insert(near.end(), region.border.begin(), region.border.end());
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  std::vector<std::uint32_t> places;
+  for (const std::uint32_t v : near) {
+    const Voxel& voxel = grid.voxels()[v];
+    for (std::uint32_t i = voxel.begin; i < voxel.end; ++i)
+      if (owner[i] < 0 &&
+          std::abs(region.plane.signed_distance(order.columns.point(i).cast<double>())) <= limits.distance)
+        places.push_back(i);
+  }
+  return places;
+}
+
+std::vector<Patch> RegionPatches::patches(const Region& region, std::uint32_t number, const FreeSide* side) const {
+  constexpr std::size_t sample_size = 64;
+  const std::vector<std::uint32_t> places = support(region);
+  const double reach = cluster_distance > 0 ? cluster_distance : spacing.reach(places);
+  PlaneCells cells(region.plane.normal, reach);
+  std::vector<std::uint32_t> cell_of;
+  cell_of.reserve(places.size());
+  for (const std::uint32_t i : places) cell_of.push_back(cells.add(order.columns.point(i)));
+  const std::vector<std::uint32_t> component = cells.components();
+
+  std::vector<std::vector<std::uint32_t>> members(component.size());
+  for (std::size_t k = 0; k < places.size(); ++k) members[component[cell_of[k]]].push_back(places[k]);
+  std::vector<Patch> result;
+  for (std::uint32_t c = 0; c < members.size(); ++c) {
+    if (members[c].size() < limits.min_points) continue;
+    Moments moments;
+    for (const std::uint32_t i : members[c]) moments.add(order.columns.point(i).cast<double>());
+    const PlaneFit fit = fit_plane(moments);
+    if (fit.variances[1] < 4 * fit.variances[0]) continue;  // a strip as narrow as the noise is no surface
+    std::vector<bool> chosen(component.size());
+    for (std::size_t k = 0; k < chosen.size(); ++k) chosen[k] = component[k] == c;
+    Patch patch{fit.plane, cells.dilated(chosen)};
+    if (side != nullptr) {
+      std::vector<std::uint32_t> sample;
+      const std::size_t step = std::max<std::size_t>(1, members[c].size() / sample_size);
+      for (std::size_t k = 0; k < members[c].size(); k += step) sample.push_back(members[c][k]);
+      side->turn(patch.plane, sample, number);
+    }
+    result.push_back(std::move(patch));
+  }
+  return result;
+}
+
+}  // namespace atrium::plane

@@ -1,0 +1,29 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "modules/plane/assignment.hpp"
+#include "modules/plane/free_side.hpp"
+#include "modules/plane/grow_regions.hpp"
+#include "modules/plane/local_spacing.hpp"
+
+namespace atrium::plane {
+
+/// Turns regions of voxels into patches of points: the points of the region's voxels and of their neighbours that are
+/// near the plane, split into connected components.
+struct RegionPatches {
+  const MortonOrder& order;
+  const VoxelGrid& grid;
+  const std::vector<std::int32_t>& owner;
+  const LocalSpacing& spacing;
+  double cluster_distance;  ///< 0: from the spacing
+  GrowthLimits limits;
+
+  /// `number`: the region's. Planes are turned by `side`, left as they are if it is null.
+  std::vector<Patch> patches(const Region& region, std::uint32_t number, const FreeSide* side) const;
+
+ private:
+  std::vector<std::uint32_t> support(const Region& region) const;
+};
+
+}  // namespace atrium::plane

@@ -1,0 +1,101 @@
+#include "modules/plane/voxel_grid.hpp"
+
+#include <cmath>
+
+namespace atrium::plane {
+namespace {
+
+constexpr std::size_t chunk_size = 1024;
+
+/// Every third bit of a Morton code.
+std::uint32_t gather_bits(std::uint64_t v) {
+  v &= 0x1249249249249249ULL;
+  v = (v | v >> 2U) & 0x10c30c30c30c30c3ULL;
+  v = (v | v >> 4U) & 0x100f00f00f00f00fULL;
+  v = (v | v >> 8U) & 0x1f0000ff0000ffULL;
+  v = (v | v >> 16U) & 0x1f00000000ffffULL;
+  return static_cast<std::uint32_t>((v | v >> 32U) & 0x1fffffULL);
+}
+
+}  // namespace
+
+VoxelGrid::VoxelGrid(const MortonOrder& order, double cell, std::uint32_t level, const std::vector<std::int32_t>& owner,
+                     const Planarity& planarity, const Context& context)
+    : edge_(cell * std::pow(2.0, level)), centre_(1 << (20 - static_cast<std::int32_t>(level))) {
+  const std::uint32_t shift = 3 * level;
+  for (std::uint32_t i = 0; i < order.codes.size(); ++i) {
+    const std::uint64_t code = order.codes[i] >> shift;
+    if (i == 0 || code != order.codes[i - 1] >> shift) {
+      if (i > 0) voxels_.back().end = i;
+      Voxel voxel;
+      voxel.index = {static_cast<std::int32_t>(gather_bits(code)), static_cast<std::int32_t>(gather_bits(code >> 1U)),
+                     static_cast<std::int32_t>(gather_bits(code >> 2U))};
+      voxel.begin = i;
+      voxels_.push_back(voxel);
+    }
+  }
+  if (!voxels_.empty()) voxels_.back().end = static_cast<std::uint32_t>(order.codes.size());
+  context.parallel_for(
+      voxels_.size(),
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) measure(voxels_[i], order, owner, planarity);
+      },
+      chunk_size);
+  hash();
+}
+
+void VoxelGrid::measure(Voxel& voxel, const MortonOrder& order, const std::vector<std::int32_t>& owner,
+                        const Planarity& planarity) const {
+  // About a point of the voxel first: the fit loses nothing to large coordinates.
+  const Eigen::Vector3d reference = order.columns.point(voxel.begin).cast<double>();
+  Moments local;
+  for (std::uint32_t i = voxel.begin; i < voxel.end; ++i)
+    if (owner[i] < 0) local.add(order.columns.point(i).cast<double>() - reference);
+  const auto n = static_cast<double>(local.count);
+  voxel.moments.count = local.count;
+  voxel.moments.sum = local.sum + n * reference;
+  voxel.moments.products = local.products + reference * local.sum.transpose() + local.sum * reference.transpose() +
+                           n * reference * reference.transpose();
+  if (local.count < planarity.min_points) return;
+  const PlaneFit fit = fit_plane(local);
+  voxel.normal = fit.plane.normal;
+  // With few points the fit bends to the noise: n - 3 degrees of freedom are left.
+  voxel.residual = std::sqrt(fit.variances[0] * n / (n - 3));
+  constexpr double least_width = 1.0 / 8;  // of the voxel, standard deviation
+  voxel.planar = voxel.residual <= planarity.max_residual && std::sqrt(fit.variances[1]) >= least_width * edge_ &&
+                 fit.variances[0] < 0.25 * fit.variances[1];
+}
+
+std::uint64_t VoxelGrid::key(const Voxel::Index& index) {
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(index[0])) |
+         static_cast<std::uint64_t>(static_cast<std::uint32_t>(index[1])) << 21U |
+         static_cast<std::uint64_t>(static_cast<std::uint32_t>(index[2])) << 42U;
+}
+
+std::size_t VoxelGrid::slot(std::uint64_t key) const {
+  const std::size_t mask = table_.size() - 1;
+  std::size_t s = (key * 0x9e3779b97f4a7c15ULL >> 32U) & mask;
+  while (table_[s].voxel != none && table_[s].key != key) s = (s + 1) & mask;
+  return s;
+}
+
+void VoxelGrid::hash() {
+  std::size_t size = 16;
+  while (size < 3 * voxels_.size()) size *= 2;
+  table_.assign(size, {});
+  for (std::uint32_t i = 0; i < voxels_.size(); ++i) table_[slot(key(voxels_[i].index))] = {key(voxels_[i].index), i};
+}
+
+std::uint32_t VoxelGrid::find(const Voxel::Index& index) const {
+  constexpr std::int32_t end = 1 << 21;
+  for (const std::int32_t i : index)
+    if (i < 0 || i >= end) return none;
+  return table_[slot(key(index))].voxel;
+}
+
+Voxel::Index VoxelGrid::index_at(const Eigen::Vector3d& p) const {
+  const auto axis = [&](double v) { return static_cast<std::int32_t>(std::floor(v / edge_)) + centre_; };
+  return {axis(p.x()), axis(p.y()), axis(p.z())};
+}
+
+}  // namespace atrium::plane

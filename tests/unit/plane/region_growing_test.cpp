@@ -1,0 +1,107 @@
+#include "modules/plane/region_growing.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "tests/support/flat_cloud.hpp"
+
+namespace atrium::plane {
+namespace {
+
+using test::box_faces;
+using test::furnished_flat;
+using test::match_faces;
+using test::sample;
+
+PlanePrimitives grow(Cloud cloud, const RegionGrowing::Params& params = {}) {
+  Context context;
+  return RegionGrowing::run({input(std::move(cloud))}, params, context).planes;
+}
+
+TEST(PlaneRegionGrowing, FindsTheSixPlanesOfABoxAndTurnsThemInwards) {
+  const auto faces = box_faces({-2, -1.5, 0}, {2, 1.5, 2.5}, true);
+  const PlanePrimitives planes = grow(sample(faces, {.points = 200000, .normals = false}));
+  ASSERT_EQ(planes.primitives.size(), 6U);
+  for (const auto& match : match_faces(faces, planes)) {
+    EXPECT_GT(match.best_iou, 0.95);
+    EXPECT_LT(match.angle, 0.05);
+    EXPECT_LT(match.offset, 0.0005);
+  }
+}
+
+TEST(PlaneRegionGrowing, FindsEveryStructuralPlaneOfAFurnishedFlat) {
+  const auto faces = furnished_flat();
+  const PlanePrimitives planes = grow(sample(faces, {.points = 600000, .normals = false}));
+  for (const auto& match : match_faces(faces, planes)) {
+    if (!faces[match.face].structural || faces[match.face].area() < 0.5) continue;
+    EXPECT_GT(match.best_iou, 0.9) << "face " << match.face;
+    EXPECT_LT(match.angle, 0.1) << "face " << match.face;  // the sides of the thin walls look into their rooms
+    EXPECT_LT(match.offset, 0.001) << "face " << match.face;
+  }
+}
+
+TEST(PlaneRegionGrowing, TurnsPlanesToTheSensorOrTheNormals) {
+  const auto faces = box_faces({0, 0, 0}, {2, 2, 2}, false);  // seen from without
+  Cloud cloud = sample({faces[1]}, {.points = 20000, .outliers = 0, .normals = false});
+  cloud.sensors = {{1, 1, 5}};
+  EXPECT_GT(grow(cloud).primitives.at(0).plane.normal.z(), 0.99);
+  cloud.sensors = {{1, 1, -5}};
+  EXPECT_LT(grow(cloud).primitives.at(0).plane.normal.z(), -0.99);
+  cloud.normals.assign(cloud.size(), {0, 0, 1});
+  EXPECT_GT(grow(cloud).primitives.at(0).plane.normal.z(), 0.99);
+}
+
+TEST(PlaneRegionGrowing, DerivesItsDistanceFromTheNoise) {
+  const auto faces = box_faces({-2, -1.5, 0}, {2, 1.5, 2.5}, true);
+  for (const double noise : {0.001, 0.008}) {
+    const PlanePrimitives planes =
+        grow(sample(faces, {.points = 200000, .noise = noise, .normals = false}), {.distance = 0});
+    EXPECT_EQ(planes.primitives.size(), 6U) << noise;
+    for (const auto& match : match_faces(faces, planes)) EXPECT_GT(match.best_iou, 0.9) << noise;
+  }
+}
+
+TEST(PlaneRegionGrowing, KeepsTheLargest) {
+  const auto faces = box_faces({0, 0, 0}, {5, 4, 2.5}, true);
+  const PlanePrimitives planes = grow(sample(faces, {.points = 100000}), {.max_planes = 2});
+  ASSERT_EQ(planes.primitives.size(), 2U);
+  for (const auto& p : planes.primitives) EXPECT_GT(std::abs(p.plane.normal.z()), 0.99);
+}
+
+TEST(PlaneRegionGrowing, SameBytesWithAnyNumberOfThreads) {
+  const Cloud cloud = sample(furnished_flat(), {.points = 60000, .normals = false});
+  const std::string expected = content_hash(grow(cloud));
+  for (const std::size_t threads : {1, 2, 4}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(content_hash(grow(cloud)), expected) << threads;
+  }
+}
+
+TEST(PlaneRegionGrowing, FindsNothingWhereThereIsNothing) {
+  EXPECT_TRUE(
+      grow(sample(box_faces({0, 0, 0}, {5, 4, 2.5}, true), {.points = 20000, .outliers = 1})).primitives.empty());
+  Cloud line;
+  for (int i = 0; i < 1000; ++i) line.points.emplace_back(static_cast<float>(i) * 0.001F, 0.0F, 0.0F);
+  EXPECT_TRUE(grow(line).primitives.empty());
+  Cloud one;
+  one.points.assign(5000, {1, 2, 3});
+  EXPECT_TRUE(grow(one).primitives.empty());
+}
+
+TEST(PlaneRegionGrowing, AFarOutlierChangesNothing) {
+  Cloud cloud = sample(box_faces({0, 0, 0}, {3, 3, 3}, true), {.points = 60000, .outliers = 0});
+  cloud.points.emplace_back(1e9F, -1e9F, 0.0F);
+  cloud.points.emplace_back(-1e30F, 0.0F, 0.0F);
+  cloud.normals.clear();
+  EXPECT_EQ(grow(cloud).primitives.size(), 6U);
+}
+
+TEST(PlaneRegionGrowing, SaysWhatIsMissing) {
+  Cloud cloud;
+  EXPECT_THROW(grow(cloud), Error);
+  cloud.points = {{0, 0, 0}, {1, 0, 0}};
+  EXPECT_THROW(grow(cloud), Error);
+}
+
+}  // namespace
+}  // namespace atrium::plane
