@@ -59,6 +59,39 @@ std::vector<double> subset_shares(double live) {
   return shares;
 }
 
+/// Which subset each free point goes to, and where each chunk of points writes its own in each subset.
+struct Division {
+  std::vector<std::uint8_t> target;                 ///< per point: its subset, or none
+  std::vector<std::vector<std::uint32_t>> offsets;  ///< per chunk and subset
+  std::vector<std::uint32_t> sizes;                 ///< per subset
+};
+
+template <class IsFree>
+Division divide(std::size_t total, const std::vector<double>& shares, std::uint64_t seed, IsFree is_free,
+                const Context& context) {
+  Division d;
+  d.target.assign(total, none);
+  d.offsets.assign((total + chunk_size - 1) / chunk_size, std::vector<std::uint32_t>(shares.size(), 0));
+  d.sizes.assign(shares.size(), 0);
+  context.parallel_chunks(total, chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!is_free(i)) continue;
+      const double u = static_cast<double>(mix_seed(seed, i) >> 11U) * 0x1.0p-53;
+      std::uint8_t k = 0;
+      while (u >= shares[k] && k + 1U < shares.size()) ++k;
+      d.target[i] = k;
+      ++d.offsets[chunk][k];
+    }
+  });
+  for (auto& chunk : d.offsets)
+    for (std::size_t k = 0; k < d.sizes.size(); ++k) {
+      const std::uint32_t count = chunk[k];
+      chunk[k] = d.sizes[k];
+      d.sizes[k] += count;
+    }
+  return d;
+}
+
 }  // namespace
 
 std::uint32_t RandomSubset::count(const FloatPlane& plane, const Tolerance& tolerance) const {
@@ -93,46 +126,26 @@ RandomSubsets::RandomSubsets(const MortonOrder& order, const std::vector<std::in
   for (std::size_t i = 0; i < total; ++i) free += is_free(i) ? 1 : 0;
   const std::vector<double> shares = subset_shares(static_cast<double>(free));
 
-  // Which subset each point goes to, and how many of each chunk: then every chunk knows where to write.
-  std::vector<std::uint8_t> target(total, none);
-  const std::size_t chunks = (total + chunk_size - 1) / chunk_size;
-  std::vector<std::vector<std::uint32_t>> offsets(chunks, std::vector<std::uint32_t>(shares.size(), 0));
-  context.parallel_chunks(total, chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!is_free(i)) continue;
-      const double u = static_cast<double>(mix_seed(seed, i) >> 11U) * 0x1.0p-53;
-      std::uint8_t k = 0;
-      while (u >= shares[k] && k + 1U < shares.size()) ++k;
-      target[i] = k;
-      ++offsets[chunk][k];
-    }
-  });
-  std::vector<std::uint32_t> sizes(shares.size(), 0);
-  for (auto& chunk : offsets)
-    for (std::size_t k = 0; k < sizes.size(); ++k) {
-      const std::uint32_t count = chunk[k];
-      chunk[k] = sizes[k];
-      sizes[k] += count;
-    }
+  Division division = divide(total, shares, seed, is_free, context);
   subsets_.resize(shares.size());
   std::vector<std::vector<std::uint64_t>> codes(shares.size());
-  for (std::size_t k = 0; k < sizes.size(); ++k) {
-    subsets_[k].columns.resize(sizes[k]);
-    subsets_[k].place.resize(sizes[k]);
-    subsets_[k].live = sizes[k];
-    codes[k].resize(sizes[k]);
+  for (std::size_t k = 0; k < subsets_.size(); ++k) {
+    subsets_[k].columns.resize(division.sizes[k]);
+    subsets_[k].place.resize(division.sizes[k]);
+    subsets_[k].live = division.sizes[k];
+    codes[k].resize(division.sizes[k]);
   }
   context.parallel_chunks(total, chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::uint8_t k = target[i];
+      const std::uint8_t k = division.target[i];
       if (k == none) continue;
-      const std::uint32_t to = offsets[chunk][k]++;
+      const std::uint32_t to = division.offsets[chunk][k]++;
       subsets_[k].columns.copy(to, order.columns, i);
       subsets_[k].place[to] = static_cast<std::uint32_t>(i);
       codes[k][to] = order.codes[i];
     }
   });
-  for (std::size_t k = 0; k < sizes.size(); ++k)
+  for (std::size_t k = 0; k < subsets_.size(); ++k)
     subsets_[k].octree = PointOctree(subsets_[k].columns, codes[k], leaf_size, context);
   live_ = built_ = free;
 }
