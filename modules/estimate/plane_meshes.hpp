@@ -7,16 +7,16 @@ namespace atrium::estimate {
 
 /// A planar rectangle for each structural primitive (paper, "Plane Estimation and Integration": M = {M_{P_i}}).
 ///
-/// - A plane whose normal is along a coordinate axis (within `axis_tolerance`) becomes exactly that: its normal is the
-///   axis, it goes through the mean of its points, and its rectangle is the bounding one along the other two axes.
+/// - A plane whose normal is along a coordinate axis (within `axis_tolerance`) becomes exactly that: its normal is
+///   the axis, it goes through the mean of its points, and its rectangle is the bounding one along the other two
+///   axes.
 /// - Any other plane stays as it was fitted and gets an oriented rectangle. A wall's has two horizontal edges, and so
-/// two
-///   vertical ones where its plane is vertical; a floor's or ceiling's is the one of least area.
+///   two vertical ones where its plane is vertical; a floor's or ceiling's is the one of least area.
 ///
-/// The rectangle bounds the points' projections onto the plane. `trim` leaves the outermost share of the points out at
-/// each of its four sides, against stray inliers. Meshes come in the order of the primitives; corners are
-/// counter-clockwise seen from the side that the normal points to. A primitive whose points do not span an area has no
-/// mesh, with a warning.
+/// The rectangle bounds the points' projections onto the plane. `trim` leaves the outermost share of the points out
+/// at each of its four sides, against stray inliers. Meshes come in the order of the primitives; corners are
+/// counter-clockwise seen from the side that the normal points to. A primitive whose points do not span an area has
+/// no mesh, with a warning.
 struct PlaneMeshes {
   static constexpr std::string_view type = "estimate.plane_meshes";
   static constexpr std::string_view summary = "A planar rectangle for each wall, floor and ceiling.";

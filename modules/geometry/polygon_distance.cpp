@@ -66,6 +66,13 @@ double segment_distance(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1, co
   return (r + da * s - db * t).norm();
 }
 
+double segment_polygon_distance(const Eigen::Vector3d& s0, const Eigen::Vector3d& s1, const Corners& polygon) {
+  double best = distance_to_inside(s0, s1, polygon, vector_area(polygon).normalized());
+  for (std::size_t j = 0; j < polygon.size(); ++j)
+    best = std::min(best, segment_distance(s0, s1, polygon[j], polygon[(j + 1) % polygon.size()]));
+  return best;
+}
+
 double polygon_distance(const Corners& a, const Corners& b) {
   // The nearest pair of points has one on a rim: of rim and rim, or of a rim's corner or crossing and an inside.
   double best = std::min(distance_to_inside(a, b), distance_to_inside(b, a));

@@ -17,7 +17,7 @@ struct PlaneExtent {
   double height = 0;  ///< mean z of its points, metres
   double bottom = 0;  ///< least z
   double top = 0;     ///< greatest z
-  /// Corners of the bounding rectangle in the plane; from the first to the second is level where the plane is steep.
+  /// Corners of the bounding rectangle in the plane; in a steep plane the first two are level and its foot.
   std::array<Eigen::Vector3d, 4> outline{};
   /// Of the bounding box along the plane, cubic metres; a box thinner than 5 cm counts as 5 cm thick.
   double volume = 0;

@@ -63,8 +63,7 @@ std::vector<Storey> stack(std::vector<PlaneExtent> planes, const std::vector<Pla
 void choose(Storey& storey, double walls_bottom, double walls_top, const StoreyLimits& limits) {
   const PlaneExtent* floor = largest(storey.floors);
   const PlaneExtent* ceiling = largest(storey.ceilings);
-  // Too near to each other, or the wrong way round: the lesser is no floor or ceiling (a wardrobe's top, a shelf's
-  // underside).
+  // Too near to each other, or the wrong way round: the lesser is furniture (a wardrobe's top, a shelf's underside).
   if (floor && ceiling && ceiling->top - floor->height < limits.min_storey_height)
     (floor->size() < ceiling->size() ? floor : ceiling) = nullptr;
   const double bottom = floor ? floor->height : walls_bottom;

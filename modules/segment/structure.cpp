@@ -110,7 +110,8 @@ void check(const Sorted& sorted, const std::vector<Storey>& storeys, const Struc
   const double contact = wall_contact(sorted.walls, storeys, meeting);
   if (contact < params.min_wall_contact)
     throw Error(
-        fmt::format("no room is in it: only {:.0f} % of the walls' length meets a floor or ceiling", 100 * contact),
+        fmt::format("no room is in it: only {:.0f} % of the walls' length stands on a floor or reaches a ceiling",
+                    100 * contact),
         "what was found are furniture and pieces of walls; scan the floor or the ceiling too, or lower "
         "min_wall_contact");
   if (!floor) context.warn("no floor was found");

@@ -202,6 +202,14 @@ TEST(PolygonDistance, OfKnownPairs) {
   EXPECT_EQ(polygon_distance(floor, moved(column, {0, 0, -1})), 0);  // piercing
 }
 
+TEST(SegmentPolygonDistance, OfKnownPairs) {
+  const std::vector<Vector3d> floor{{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}};
+  EXPECT_DOUBLE_EQ(segment_polygon_distance({1, 1, 0.4}, {2, 1, 0.6}, floor), 0.4);  // over the inside
+  EXPECT_DOUBLE_EQ(segment_polygon_distance({1, -0.3, 0.4}, {2, -0.3, 0.4}, floor), 0.5);
+  EXPECT_EQ(segment_polygon_distance({1, 1, -1}, {1, 1, 1}, floor), 0);
+  EXPECT_EQ(segment_polygon_distance({1, 1, 0}, {2, 2, 0}, floor), 0);
+}
+
 TEST(SegmentDistance, OfParallelCollinearAndPointSegments) {
   EXPECT_DOUBLE_EQ(segment_distance({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}), 1);
   EXPECT_DOUBLE_EQ(segment_distance({0, 0, 0}, {1, 0, 0}, {3, 0, 0}, {2, 0, 0}), 1);

@@ -186,6 +186,7 @@ TEST(SegmentStructure, SaysThatThereIsNoRoom) {
 TEST(SegmentStructure, FurnitureWithoutItsRoomIsNoRoom) {
   test::Rooms rooms;
   rooms.floor(2, 2, 3.5, 3, 0.73).floor(2, 5, 2.5, 5.5, 0.45);  // a table, a chair
+  rooms.floor(0.2, 0.1, 2, 0.6, 0.9);                           // a worktop at a wall
   rooms.wall(0, 0, 2, 0, 0, 2.1)
       .wall(0, 0.5, 0, 1.2, 0, 2.1)
       .wall(4.5, 2, 4.5, 4);  // cupboards, what is left of a wall
