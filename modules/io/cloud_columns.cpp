@@ -9,6 +9,7 @@ namespace atrium::io {
 std::vector<OutColumn> columns_of(const Cloud& cloud, bool packed_colour) {
   using Point = std::size_t;
   std::vector<OutColumn> columns;
+  columns.reserve(12);
   const Scalar place = cloud.origin.isZero(0) ? Scalar::f32 : Scalar::f64;
   constexpr std::string_view axes[3] = {"x", "y", "z"};
   for (int a = 0; a < 3; ++a)

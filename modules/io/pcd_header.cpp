@@ -82,6 +82,7 @@ class Parser {
 
   std::vector<std::uint64_t> wholes(const std::vector<std::string_view>& values) const {
     std::vector<std::uint64_t> result;
+    result.reserve(values.size());
     for (const auto v : values) result.push_back(whole(v));
     return result;
   }

@@ -135,13 +135,11 @@ class BinaryBody {
     with_scalar(property.type, [&](auto t) {
       using T = decltype(t);
       for (std::uint64_t k = 0; k < count; ++k) {
-        const T corner = load<T>(from + k * sizeof(T), swapped_);
-        if (corner >= T{0} && static_cast<double>(corner) < static_cast<double>(geometry_.count) &&
-            static_cast<T>(static_cast<std::uint32_t>(corner)) == corner)
+        const auto corner = static_cast<double>(load<T>(from + k * sizeof(T), swapped_));
+        if (corner >= 0 && corner < static_cast<double>(geometry_.count) && corner == std::floor(corner))
           corners[k] = static_cast<std::uint32_t>(corner);
         else
-          vertex_index(static_cast<double>(corner), geometry_.count,
-                       fmt::format("{}: face {} at byte {}", file_.path(), index, place_));
+          vertex_index(corner, geometry_.count, fmt::format("{}: face {} at byte {}", file_.path(), index, place_));
       }
     });
     place_ += count * size_of(property.type);
