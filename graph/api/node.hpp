@@ -163,9 +163,9 @@ std::vector<Value> run_node(const std::vector<std::vector<Value>>& inputs, const
 
 }  // namespace detail
 
-/// Reads a node struct's tables.
+/// Reads a node struct's tables: all of a node type but its function.
 template <class N>
-NodeType describe_node() {
+NodeType describe_tables() {
   static_assert(detail::field_count<typename N::In>() == std::tuple_size_v<decltype(N::inputs)>,
                 "a field of In has no row in the table `inputs` (or a row too many)");
   static_assert(detail::field_count<typename N::Out>() == std::tuple_size_v<decltype(N::outputs)>,
@@ -192,6 +192,13 @@ NodeType describe_node() {
   node.sink = node.outputs.empty();
   if constexpr (requires { N::sink; }) node.sink = node.sink || N::sink;
   for (const auto& p : node.params) node.sink = node.sink || p.kind == ParamKind::output_path;
+  return node;
+}
+
+/// Reads a node struct's tables and takes its function.
+template <class N>
+NodeType describe_node() {
+  NodeType node = describe_tables<N>();
   node.run = [infos = node.params](const std::vector<std::vector<Value>>& inputs, const std::vector<ParamValue>& values,
                                    Context& context) { return detail::run_node<N>(inputs, values, infos, context); };
   return node;

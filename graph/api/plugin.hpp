@@ -19,7 +19,27 @@
     ::atrium::detail::add_nodes<__VA_ARGS__>(nodes);                                                                 \
   }
 
+/// The same for a plugin whose functions are in a second library, libatrium_<module>-run.so, which is loaded when one
+/// of them is first called: what links large libraries is checked and listed without loading them.
+#define ATRIUM_LAZY_PLUGIN(...)                                                                                      \
+  extern "C" __attribute__((visibility("default"))) const char* atrium_plugin_stamp() { return ATRIUM_STAMP; }       \
+  extern "C" __attribute__((visibility("default"))) void atrium_plugin_nodes(std::vector<atrium::NodeType>& nodes) { \
+    ::atrium::detail::add_lazy_nodes<__VA_ARGS__>(nodes, ATRIUM_STAMP);                                              \
+  }
+
 namespace atrium::detail {
+/// The function of a node type in the library beside the one that `anchor` is in; throws PluginError when called and
+/// the library cannot be loaded.
+decltype(NodeType::run) run_of_second_library(const void* anchor, const std::string& type);
+
+template <class... N>
+void add_lazy_nodes(std::vector<NodeType>& nodes, const void* anchor) {
+  const auto add = [&](NodeType node) {
+    node.run = run_of_second_library(anchor, node.type);
+    nodes.push_back(std::move(node));
+  };
+  (add(describe_tables<N>()), ...);
+}
 template <class... N>
 void add_nodes(std::vector<NodeType>& nodes) {
   (nodes.push_back(describe_node<N>()), ...);

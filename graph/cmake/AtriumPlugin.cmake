@@ -1,14 +1,15 @@
 # atrium_add_plugin(<module> NODES <name>... [NAMESPACE <ns>] [SOURCES <file>...] [LIBRARIES <target>...]
-#                   [NO_INSTALL])
+#                   [LAZY] [NO_INSTALL])
 #
 # Builds libatrium_<module>.so from the node types <name>: each is a pair of files, <name>.hpp and <name>.cpp, whose header
 # holds the struct <Name> (CamelCase of the file's name) in the namespace <ns> (default: atrium::<module>), with
 # type = "<module>.<name>". Installed to <libdir>/atrium, where the program finds it; during development ATRIUM_PLUGIN_PATH
-# can name the build's folder lib/atrium. Adding a node type is adding the pair of files and its name to NODES.
+# can name the build's folder lib/atrium. LAZY is for modules that link large libraries (PCL, VTK): the tables stand in a
+# light library, the functions in libatrium_<module>-run.so, which is loaded when a node of the module first runs. Adding a node type is adding the pair of files and its name to NODES.
 include(GNUInstallDirs)
 set(ATRIUM_PLUGIN_TEMPLATE_DIR ${CMAKE_CURRENT_LIST_DIR})
 function(atrium_add_plugin module)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL" "NAMESPACE" "NODES;SOURCES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LAZY;NO_INSTALL" "NAMESPACE" "NODES;SOURCES;LIBRARIES")
   if(NOT arg_NAMESPACE)
     set(arg_NAMESPACE atrium::${module})
   endif()
@@ -29,13 +30,27 @@ function(atrium_add_plugin module)
     list(APPEND sources ${node}.cpp)
   endforeach()
   list(JOIN structs ",\n              " structs)
+  set(macro ATRIUM_PLUGIN)
   configure_file(${ATRIUM_PLUGIN_TEMPLATE_DIR}/plugin.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/plugin.cpp @ONLY)
   add_library(atrium_${module} SHARED ${CMAKE_CURRENT_BINARY_DIR}/plugin.cpp ${sources})
   target_include_directories(atrium_${module} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(atrium_${module} PUBLIC atrium::graph atrium::types ${arg_LIBRARIES})
   set_target_properties(atrium_${module} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/atrium
                                                     INSTALL_RPATH "$ORIGIN;$ORIGIN/.." INSTALL_RPATH_USE_LINK_PATH ON)
+  set(targets atrium_${module})
+  if(arg_LAZY)
+    set(macro ATRIUM_LAZY_PLUGIN)
+    configure_file(${ATRIUM_PLUGIN_TEMPLATE_DIR}/plugin.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/tables.cpp @ONLY)
+    add_library(atrium_${module}_tables SHARED ${CMAKE_CURRENT_BINARY_DIR}/tables.cpp)
+    target_include_directories(atrium_${module}_tables PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+    target_link_libraries(atrium_${module}_tables PRIVATE atrium::graph atrium::types)
+    add_dependencies(atrium_${module} atrium_${module}_tables)
+    set_target_properties(atrium_${module} PROPERTIES OUTPUT_NAME atrium_${module}-run)
+    set_target_properties(atrium_${module}_tables PROPERTIES OUTPUT_NAME atrium_${module}
+                          LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/atrium INSTALL_RPATH "$ORIGIN;$ORIGIN/..")
+    list(APPEND targets atrium_${module}_tables)
+  endif()
   if(NOT arg_NO_INSTALL)
-    install(TARGETS atrium_${module} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/atrium)
+    install(TARGETS ${targets} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/atrium)
   endif()
 endfunction()

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <mutex>
 #include <set>
 
 #include "graph/api/plugin.hpp"
@@ -78,7 +79,37 @@ std::vector<NodeType> load_plugin(const std::filesystem::path& file, const std::
   return nodes;
 }
 
+/// The second libraries that have been loaded: their node types by name.
+const NodeType& node_of_second_library(const std::string& file, const std::string& module, const std::string& type) {
+  static std::mutex mutex;
+  static std::map<std::string, std::map<std::string, NodeType>> loaded;
+  const std::lock_guard lock(mutex);  // nodes that run side by side may ask for the same one
+  auto library = loaded.find(file);
+  if (library == loaded.end()) {
+    std::map<std::string, NodeType> types;
+    for (auto& node : load_plugin(file, module)) types.emplace(node.type, node);
+    library = loaded.emplace(file, std::move(types)).first;
+  }
+  const auto found = library->second.find(type);
+  if (found == library->second.end())
+    throw PluginError(fmt::format("{} has no node type '{}'", file, type),
+                      "build and install both libraries of the plugin");
+  return found->second;
+}
+
 }  // namespace
+
+decltype(NodeType::run) detail::run_of_second_library(const void* anchor, const std::string& type) {
+  Dl_info info{};
+  const bool known = ::dladdr(anchor, &info) != 0 && info.dli_fname != nullptr;
+  std::string file = known ? info.dli_fname : "";
+  if (file.ends_with(suffix)) file.resize(file.size() - suffix.size());
+  file += "-run.so";
+  return [file, type](const std::vector<std::vector<Value>>& inputs, const std::vector<ParamValue>& params,
+                      Context& context) {
+    return node_of_second_library(file, module_of(type), type).run(inputs, params, context);
+  };
+}
 
 struct Registry::Impl {
   std::vector<std::filesystem::path> folders;

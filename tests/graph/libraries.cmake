@@ -1,7 +1,7 @@
 find_package(rapidcheck REQUIRED)
 list(APPEND libraries rapidcheck nlohmann_json::nlohmann_json)
 # Plugins, good and bad, for the tests of the registry and the command line.
-foreach(plugin test stranger misnamed empty)
+foreach(plugin test stranger misnamed empty lazy lazy-run)
   add_library(test_plugin_${plugin} MODULE ${CMAKE_CURRENT_SOURCE_DIR}/graph/plugins/${plugin}.cpp)
   target_link_libraries(test_plugin_${plugin} PRIVATE atrium::graph)
   set_target_properties(test_plugin_${plugin} PROPERTIES OUTPUT_NAME atrium_${plugin}

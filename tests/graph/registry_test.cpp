@@ -36,7 +36,7 @@ TEST(Registry, LoadsAPluginWhenATypeOfItIsAskedFor) {
   EXPECT_EQ(registry.find("test"), nullptr);
   EXPECT_EQ(registry.find(""), nullptr);
   EXPECT_EQ(registry.find("../test.find"), nullptr);
-  EXPECT_EQ(registry.modules(), (std::vector<std::string>{"empty", "misnamed", "stranger", "test"}));
+  EXPECT_EQ(registry.modules(), (std::vector<std::string>{"empty", "lazy", "misnamed", "stranger", "test"}));
 }
 
 TEST(Registry, RefusesPluginsThatDoNotFit) {
@@ -56,8 +56,23 @@ TEST(Registry, ListsAllTypesAndWhatCannotBeLoaded) {
   std::vector<std::string> problems;
   const auto types = registry.all(&problems);
   EXPECT_EQ(problems.size(), 3U);
-  ASSERT_EQ(types.size(), 3U);
-  EXPECT_EQ(types[0]->type, "test.find");
+  ASSERT_EQ(types.size(), 5U);
+  EXPECT_EQ(types[2]->type, "test.find");
+}
+
+TEST(Registry, LoadsTheSecondLibraryOfALazyPluginWhenANodeRuns) {
+  Registry registry(Folders{plugins});
+  Context context;
+  const NodeType* found = registry.find("lazy.double");
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(found->params.at(0).initial, ParamValue(1.0));
+  const auto outputs = found->run({}, {ParamValue(21.0)}, context);
+  EXPECT_EQ(*static_cast<const double*>(outputs.at(0).data.get()), 42.0);
+  EXPECT_THROW(registry.find("lazy.forgotten")->run({}, {}, context), PluginError);
+  test::Folder folder;
+  std::filesystem::copy(plugins / "libatrium_lazy.so", folder.path());
+  Registry alone(Folders{folder.path()});
+  EXPECT_THROW(alone.find("lazy.double")->run({}, {ParamValue(1.0)}, context), PluginError);
 }
 
 TEST(Registry, TakesTheFirstFolderThatHasTheModule) {
