@@ -12,6 +12,15 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 /// "did you mean 'x'?", or "" when nothing is near.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
 
+/// word(item) for each item: candidates from a table.
+template <class Items, class F>
+std::vector<std::string> words_of(const Items& items, F word) {
+  std::vector<std::string> words;
+  words.reserve(items.size());
+  for (const auto& item : items) words.push_back(word(item));
+  return words;
+}
+
 /// "a, b, c": at most `limit` of the words, then how many more there are.
 std::string join_words(const std::vector<std::string>& words, std::size_t limit = 12);
 

@@ -51,6 +51,7 @@ void print_summary(const LoadResult& result) {
 
 std::vector<Override> to_overrides(const std::vector<std::string>& texts) {
   std::vector<Override> overrides;
+  overrides.reserve(texts.size());
   for (const auto& text : texts) overrides.push_back({text, "-s " + text});
   return overrides;
 }

@@ -43,7 +43,7 @@ Json list_schema(const Json& items, std::size_t length) {
 }
 
 Json value_schema(const ParamInfo& param) {
-  const Json text{{"type", Json::array({"string", "number", "boolean"})}};  // YAML reads an unquoted 12 as a number
+  Json text{{"type", Json::array({"string", "number", "boolean"})}};  // YAML reads an unquoted 12 as a number
   switch (param.kind) {
     case ParamKind::boolean: return {{"type", "boolean"}};
     case ParamKind::integer:

@@ -5,7 +5,8 @@
 # holds the struct <Name> (CamelCase of the file's name) in the namespace <ns> (default: atrium::<module>), with
 # type = "<module>.<name>". Installed to <libdir>/atrium, where the program finds it; during development ATRIUM_PLUGIN_PATH
 # can name the build's folder lib/atrium. LAZY is for modules that link large libraries (PCL, VTK): the tables stand in a
-# light library, the functions in libatrium_<module>-run.so, which is loaded when a node of the module first runs. Adding a node type is adding the pair of files and its name to NODES.
+# light library, the functions in libatrium_<module>-run.so, which is loaded when a node of the module first runs. Adding a
+# node type is adding the pair of files and its name to NODES.
 include(GNUInstallDirs)
 set(ATRIUM_PLUGIN_TEMPLATE_DIR ${CMAKE_CURRENT_LIST_DIR})
 function(atrium_add_plugin module)

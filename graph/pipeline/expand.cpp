@@ -12,9 +12,7 @@ constexpr std::size_t most_nodes = 100'000;
 constexpr int deepest_chain = 32;
 
 std::vector<std::string> names_of(const std::vector<Setting>& settings) {
-  std::vector<std::string> names;
-  for (const auto& setting : settings) names.push_back(setting.name.text);
-  return names;
+  return words_of(settings, [](const Setting& setting) { return setting.name.text; });
 }
 
 }  // namespace

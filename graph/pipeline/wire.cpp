@@ -18,9 +18,7 @@ struct Endpoint {
 };
 
 std::vector<std::string> names_of(const std::vector<PortInfo>& ports) {
-  std::vector<std::string> names;
-  for (const auto& port : ports) names.push_back(port.name);
-  return names;
+  return words_of(ports, [](const PortInfo& port) { return port.name; });
 }
 
 std::size_t find_port(const std::vector<PortInfo>& ports, const std::string& name) {
@@ -257,8 +255,7 @@ class Wirer {
 
   void check_pipeline_inputs(const Scope& scope) {
     const auto& declared = scope.document->inputs;
-    std::vector<std::string> names;
-    for (const auto& [name, type] : declared) names.push_back(name.text);
+    const auto names = words_of(declared, [](const auto& input) { return input.first.text; });
     for (const auto& wiring : scope.node->inputs) {
       const auto place = std::find(names.begin(), names.end(), wiring.port.text);
       if (place == names.end()) {
