@@ -92,7 +92,7 @@ class Rooms {
 
  private:
   void add_point(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
-    cloud_.points.push_back(p.cast<float>());
+    cloud_.points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()));
     if (normals) cloud_.normals.push_back(normal.cast<float>());
   }
 
