@@ -40,13 +40,6 @@ float spacing_of(const PointColumns& columns, std::size_t begin, std::size_t cou
 
 }  // namespace
 
-float LocalSpacing::median() const {
-  std::vector<float> values = spacings_;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double LocalSpacing::reach(const std::vector<std::uint32_t>& places) const {
   constexpr std::size_t samples = 64;
   constexpr double least = 0.03;

@@ -16,8 +16,7 @@ namespace {
 
 constexpr std::uint32_t leaf_size = 32;
 constexpr double least_voxel = 0.05;
-constexpr std::uint32_t least_level = 2;   // of a voxel above the order's cells
-constexpr double voxel_per_spacing = 1.2;  // some four points in a voxel that a surface crosses
+constexpr std::uint32_t least_level = 2;  // of a voxel above the order's cells
 constexpr double least_distance = 0.002;
 constexpr double distance_per_residual = 2.5;
 constexpr int passes = 2;
@@ -35,9 +34,21 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-std::uint32_t automatic_level(const LocalSpacing& spacing) {
-  const double doublings = std::log2(std::max(1.0, voxel_per_spacing * spacing.median() / least_voxel));
-  return least_level + static_cast<std::uint32_t>(std::clamp(std::round(doublings), 0.0, 12.0));
+/// The finest level, from 5 cm voxels on, at which half of the points share their voxel with enough others for a plane.
+std::uint32_t automatic_level(const MortonOrder& order) {
+  constexpr std::uint32_t coarsest = 8;
+  constexpr std::size_t enough = 5;
+  for (std::uint32_t level = least_level; level < coarsest; ++level) {
+    std::size_t together = 0;
+    std::size_t begin = 0;
+    for (std::size_t i = 1; i <= order.codes.size(); ++i) {
+      if (i < order.codes.size() && (order.codes[i] ^ order.codes[begin]) >> (3 * level) == 0) continue;
+      if (i - begin >= enough) together += i - begin;
+      begin = i;
+    }
+    if (2 * together >= order.codes.size()) return level;
+  }
+  return coarsest;
 }
 
 /// 2.5 times the noise, as the neighbourhoods of flat voxels show it: a voxel alone can cut the noise in half.
@@ -87,7 +98,7 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
   if (params.voxel_size > 0) settings.cell = params.voxel_size / (1U << least_level);
   const MortonOrder order(cloud, settings.cell, context);
   const LocalSpacing spacing(order, context);
-  if (params.voxel_size == 0) settings.level = automatic_level(spacing);
+  if (params.voxel_size == 0) settings.level = automatic_level(order);
   std::vector<std::int32_t> owner(cloud.size(), -1);
   GrowthLimits& limits = settings.limits;
   limits.distance = params.distance;

@@ -43,10 +43,9 @@ struct RegionGrowing {
   static constexpr auto params = std::tuple{
       param(&Params::max_planes, "max_planes", count, within(0, 1e6),
             "Keep this many planes, the largest (the paper's number of primitives); 0: all."),
-      param(
-          &Params::voxel_size, "voxel_size", metres, within(0, 10),
-          "Edge of the voxels: less than half of the thinnest wall. 0: 5 cm, doubled until a voxel on a surface holds "
-          "enough points."),
+      param(&Params::voxel_size, "voxel_size", metres, within(0, 10),
+            "Edge of the voxels: less than half of the thinnest wall. 0: 5 cm, doubled until half of the "
+            "points share their voxel with four others."),
       param(&Params::distance, "distance", metres, within(0, 10),
             "Largest distance of a point from its plane. 0: 2.5 times the noise, which is the median residual around "
             "flat voxels."),
