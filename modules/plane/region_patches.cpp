@@ -5,25 +5,31 @@
 
 namespace atrium::plane {
 
-std::vector<std::uint32_t> RegionPatches::support(const Region& region) const {
+RegionPatches::Support RegionPatches::support(const Region& region) const {
   std::vector<std::uint32_t> near = region.voxels;
   near.insert(near.end(), region.border.begin(), region.border.end());
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
-  std::vector<std::uint32_t> places;
+  Support support;
+  std::size_t band = 0;
   for (const std::uint32_t v : near) {
     const Voxel& voxel = grid.voxels()[v];
-    for (std::uint32_t i = voxel.begin; i < voxel.end; ++i)
-      if (owner[i] < 0 &&
-          std::abs(region.plane.signed_distance(order.columns.point(i).cast<double>())) <= limits.distance)
-        places.push_back(i);
+    for (std::uint32_t i = voxel.begin; i < voxel.end; ++i) {
+      if (owner[i] >= 0) continue;
+      const double d = std::abs(region.plane.signed_distance(order.columns.point(i).cast<double>()));
+      if (d <= 3 * limits.distance) ++band;
+      if (d <= limits.distance) support.places.push_back(i);
+    }
   }
-  return places;
+  support.share = static_cast<double>(support.places.size()) / static_cast<double>(std::max<std::size_t>(1, band));
+  return support;
 }
 
 std::vector<Patch> RegionPatches::patches(const Region& region, std::uint32_t number, const FreeSide* side) const {
   constexpr std::size_t sample_size = 64;
-  const std::vector<std::uint32_t> places = support(region);
+  const auto [places, share] = support(region);
+  // Spread evenly through space, a third would lie in the slab, at an RMS distance of 0.58 of its half width.
+  const bool diffuse = share < 0.5;
   const double reach = cluster_distance > 0 ? cluster_distance : spacing.reach(places);
   PlaneCells cells(region.plane.normal, reach);
   std::vector<std::uint32_t> cell_of;
@@ -40,6 +46,7 @@ std::vector<Patch> RegionPatches::patches(const Region& region, std::uint32_t nu
     for (const std::uint32_t i : members[c]) moments.add(order.columns.point(i).cast<double>());
     const PlaneFit fit = fit_plane(moments);
     if (fit.variances[1] < 4 * fit.variances[0]) continue;  // a strip as narrow as the noise is no surface
+    if (diffuse && std::sqrt(fit.variances[0]) > 0.5 * limits.distance) continue;
     std::vector<bool> chosen(component.size());
     for (std::size_t k = 0; k < chosen.size(); ++k) chosen[k] = component[k] == c;
     Patch patch{fit.plane, cells.dilated(chosen)};

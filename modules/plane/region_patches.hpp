@@ -10,7 +10,8 @@
 namespace atrium::plane {
 
 /// Turns regions of voxels into patches of points: the points of the region's voxels and of their neighbours that are
-/// near the plane, split into connected components.
+/// near the plane, split into connected components. Where points fill the space around the plane as they fill the
+/// plane, there is none.
 struct RegionPatches {
   const MortonOrder& order;
   const VoxelGrid& grid;
@@ -23,7 +24,11 @@ struct RegionPatches {
   std::vector<Patch> patches(const Region& region, std::uint32_t number, const FreeSide* side) const;
 
  private:
-  std::vector<std::uint32_t> support(const Region& region) const;
+  struct Support {
+    std::vector<std::uint32_t> places;
+    double share = 0;  ///< of the points in a band three times as wide
+  };
+  Support support(const Region& region) const;
 };
 
 }  // namespace atrium::plane

@@ -1,1 +1,1 @@
-list(APPEND libraries TBB::tbb)
+list(APPEND libraries TBB::tbb atrium_synth atrium_normal)
