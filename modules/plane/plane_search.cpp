@@ -13,6 +13,9 @@ constexpr std::size_t least_batch = 256;
 constexpr std::size_t largest_batch = 4096;
 constexpr std::uint64_t batch_streams = 1U << 20U;  // below: streams of the divisions
 constexpr int competitions = 16;
+// So many candidates in a row whose component is too small, best first: what is left is clutter. The pool of candidates
+// in clutter is large (10,000 in a phone scan of 30,000 points), each costs a fit, and none gives a plane.
+constexpr int patience = 400;
 constexpr double telling_score = 8;  // on the first subset: less may be chance
 
 FloatPlane to_float(const Plane& plane) { return {plane.normal.cast<float>(), static_cast<float>(plane.offset)}; }
@@ -40,8 +43,9 @@ std::vector<Patch> PlaneSearch::run() {
     if (found) {
       take_out(*found, static_cast<std::int32_t>(patches.size()));
       patches.push_back(std::move(found->patch));
+      vain_fits_ = 0;
       context_.progress(1 - static_cast<double>(subsets_->live()) / all);
-    } else if (confident(min_points_)) {
+    } else if (vain_fits_ >= patience || confident(min_points_)) {
       break;
     } else {
       draw();
@@ -96,7 +100,7 @@ void PlaneSearch::rescore(Candidate& candidate) const {
 
 std::optional<FittedPatch> PlaneSearch::extract() {
   int budget = competitions;
-  while (!candidates_.empty()) {
+  while (!candidates_.empty() && vain_fits_ < patience) {
     Candidate best = candidates_.top();
     if (best.round == round_ && !confident(best.expected)) return std::nullopt;
     candidates_.pop();
@@ -109,6 +113,7 @@ std::optional<FittedPatch> PlaneSearch::extract() {
       return std::move(taken.found);
     } else if (!shadowed(best) && !compete(best, budget)) {
       keep = fit(best);
+      if (!keep || best.upper < min_points_) ++vain_fits_;
     }
     if (keep && best.upper >= min_points_) candidates_.push(best);
   }

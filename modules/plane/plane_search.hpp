@@ -70,6 +70,7 @@ class PlaneSearch {
   std::uint32_t round_ = 0;
   std::uint64_t divisions_ = 0, batches_ = 0;
   std::size_t drawn_ = 0;
+  int vain_fits_ = 0;               ///< in a row, since the last plane
   std::vector<Coverage> coverage_;  ///< one for each division
 };
 
