@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace atrium::cli {
@@ -41,9 +43,16 @@ Json to_json(const Fact& fact) {
 
 std::string results_table(const Pipeline& pipeline, const RunResult& result) {
   std::vector<Row> rows;
+  std::map<std::string, int> uses;
   for (const auto& output : pipeline.outputs)
-    for (const auto& fact : facts_of(output, result))
-      rows.push_back({fact.name.empty() ? output.name : output.name + "." + fact.name, shown(fact), fact.unit});
+    for (const auto& fact : facts_of(output, result)) ++uses[fact.name];
+  // A metric's own name suffices unless two outputs have one of that name.
+  for (const auto& output : pipeline.outputs)
+    for (const auto& fact : facts_of(output, result)) {
+      const std::string own = fact.name.empty() ? output.name : fact.name;
+      const bool shared = !fact.name.empty() && uses[fact.name] > 1;
+      rows.push_back({shared ? output.name + "." + own : own, shown(fact), fact.unit});
+    }
   std::size_t name = 0;
   std::size_t value = 0;
   for (const auto& row : rows) {

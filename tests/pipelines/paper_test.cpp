@@ -1,0 +1,165 @@
+// The paper's method, run as a user runs it: simulate or take a scan, `atrium run pipelines/paper.yaml`, look at the
+// files.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "tests/pipelines/steps.hpp"
+
+namespace atrium::test {
+namespace {
+
+const std::vector<std::string> results{"structure.ply", "objects.ply", "scene.ply", "scene_without_ceiling.ply",
+                                       "planes.vg",     "metrics.json"};
+
+std::string simulate(const TemporaryFolder& scratch, const std::vector<std::string>& settings) {
+  const auto run = run_pipeline_file("simulate.yaml", settings, scratch / "scan");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  return "scan=" + (scratch / "scan/scan.ply").string();
+}
+
+TEST(Paper, FindsTheStructureOfATurnedAndTiltedFlat) {
+  const TemporaryFolder scratch;
+  const auto scan = simulate(scratch, {"points=1000000", "noise=8 mm", "yaw=23 deg", "tilt=2.5 deg"});
+  const auto paper = run_pipeline_file("paper.yaml", {scan, "objects.type=object.none"}, scratch / "paper");
+  ASSERT_EQ(paper.exit_code, 0) << paper.err;
+  const auto evaluated = run_pipeline_file(
+      "evaluate.yaml",
+      {"structure=" + (scratch / "paper/structure.ply").string(), "truth=" + (scratch / "scan/truth.ply").string()},
+      scratch / "evaluated");
+  ASSERT_EQ(evaluated.exit_code, 0) << evaluated.err;
+  EXPECT_GE(metric(scratch / "evaluated/metrics.json", "structure.b50mm.completeness"), 0.90);
+  EXPECT_GE(metric(scratch / "evaluated/metrics.json", "structure.b50mm.correctness"), 0.85);
+}
+
+TEST(Paper, GivesTheSameBytesWithAnyNumberOfThreads) {
+  const TemporaryFolder scratch;
+  const auto scan = simulate(scratch, {"points=100000"});
+  std::vector<fs::path> runs;
+  for (const std::string threads : {"1", "2", "4"})
+    for (const std::string round : {"a", "b", "c"}) {
+      runs.push_back(scratch / ("run-" + threads + round));
+      const auto run = run_pipeline_file("paper.yaml", {scan, "objects.depth=6"}, runs.back(), {"-j", threads});
+      ASSERT_EQ(run.exit_code, 0) << run.err;
+    }
+  for (const auto& file : results) {
+    const std::string first = read_text(runs.front() / file);
+    EXPECT_FALSE(first.empty()) << file;
+    for (const auto& run : runs) EXPECT_TRUE(read_text(run / file) == first) << run << "/" << file;
+  }
+}
+
+TEST(Paper, ResolvedFileGivesTheSameBytes) {
+  const TemporaryFolder scratch;
+  const auto scan = simulate(scratch, {"points=100000"});
+  const auto first = run_pipeline_file(
+      "paper.yaml", {scan, "objects.type=object.none", "planes.distance=15 mm", "seed=7"}, scratch / "first");
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const auto again =
+      atrium({"run", (scratch / "first/resolved.yaml").string(), "--quiet", "--out", (scratch / "again").string()});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  for (const auto& file : results)
+    EXPECT_TRUE(read_text(scratch / ("first/" + file)) == read_text(scratch / ("again/" + file))) << file;
+}
+
+TEST(Paper, NodesAreSwappedAndConstantsChangedFromTheCommandLine) {
+  const TemporaryFolder scratch;
+  const auto scan = simulate(scratch, {"points=100000"});
+  const auto swapped = run_pipeline_file("paper.yaml",
+                                         {scan, "objects.type=object.none", "planes.type=plane.region_growing",
+                                          "translated.max_separation=10 cm", "aligned.type=align.none"},
+                                         scratch / "swapped");
+  EXPECT_EQ(swapped.exit_code, 0) << swapped.err;
+  EXPECT_NE(read_text(scratch / "swapped/resolved.yaml").find("plane.region_growing"), std::string::npos);
+  const auto wrong = run_pipeline_file("paper.yaml", {scan, "planes.distanse=1 cm"}, scratch / "wrong");
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_NE(wrong.err.find("did you mean 'distance'"), std::string::npos) << wrong.err;
+  EXPECT_FALSE(fs::exists(scratch / "wrong"));
+}
+
+TEST(Paper, GeoreferencedScanComesBackWhereItWas) {
+  const TemporaryFolder scratch;
+  const auto there = simulate(scratch, {"points=200000", "offset=[500000, 5400000, 300]"});
+  const auto far = run_pipeline_file("paper.yaml", {there, "objects.type=object.none"}, scratch / "far");
+  ASSERT_EQ(far.exit_code, 0) << far.err;
+  const auto evaluated = run_pipeline_file(
+      "evaluate.yaml",
+      {"structure=" + (scratch / "far/structure.ply").string(), "truth=" + (scratch / "scan/truth.ply").string()},
+      scratch / "evaluated");
+  ASSERT_EQ(evaluated.exit_code, 0) << evaluated.err;
+  EXPECT_LT(metric(scratch / "evaluated/metrics.json", "structure.b50mm.accuracy"), 0.002);
+  EXPECT_GE(metric(scratch / "evaluated/metrics.json", "structure.b50mm.completeness"), 0.85);
+}
+
+class RealScan : public testing::TestWithParam<std::string> {};
+
+TEST_P(RealScan, BecomesAModelWithWalls) {
+  const fs::path scan = scans / GetParam();
+  if (!fs::exists(scan)) GTEST_SKIP() << "skipped: there is no " << scan;
+  const TemporaryFolder scratch;
+  const auto run = run_pipeline_file("paper.yaml", {"scan=" + scan.string()}, scratch / "out");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const auto& file : results) EXPECT_TRUE(fs::exists(scratch / ("out/" + file))) << file;
+  EXPECT_GE(metric(scratch / "out/metrics.json", "structure.walls"), 2);
+}
+INSTANTIATE_TEST_SUITE_P(Scans, RealScan,
+                         testing::Values("quest_office_small/mesh.ply", "quest_meeting_room/mesh.ply",
+                                         "quest_living_room/mesh.ply", "lidar_room/room_scan1.pcd",
+                                         "lidar_room/room_scan2.pcd", "lidar_flat/cloud_0.ply",
+                                         "lidar_flat/cloud_1.ply", "ipad_ceilings/808_db.ply",
+                                         "ipad_ceilings/430_db.ply"),
+                         [](const auto& test) {
+                           std::string name = fs::path(test.param).replace_extension().string();
+                           for (auto& c : name)
+                             if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+                           return name;
+                         });
+
+TEST(Paper, SaysThatThereIsNoRoomInAScanOfFurniture) {
+  const fs::path scan = scans / "objects_only/room1_gt_fine.pcd";
+  if (!fs::exists(scan)) GTEST_SKIP() << "skipped: there is no " << scan;
+  const TemporaryFolder scratch;
+  const auto run = run_pipeline_file("paper.yaml", {"scan=" + scan.string()}, scratch / "out");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("no room"), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(scratch / "out/structure.ply"));
+}
+
+struct BadScan {
+  std::string name, text, message;
+};
+class BadInput : public testing::TestWithParam<BadScan> {};
+
+TEST_P(BadInput, IsAClearErrorAndNoModel) {
+  const TemporaryFolder scratch;
+  const fs::path scan = scratch / GetParam().name;
+  std::ofstream(scan, std::ios::binary) << GetParam().text;
+  const auto run = run_pipeline_file("paper.yaml", {"scan=" + scan.string()}, scratch / "out");
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_NE(run.err.find(GetParam().message), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(scratch / "out/structure.ply"));
+}
+
+std::string lines(int n, const std::function<std::string(int)>& line) {
+  std::string text;
+  for (int i = 0; i < n; ++i) text += line(i) + "\n";
+  return text;
+}
+std::string grid_point(int i) { return std::to_string(i % 200 * 0.02) + " " + std::to_string(i / 200 * 0.02) + " 0"; }
+
+const std::string ply_header =
+    "ply\nformat binary_little_endian 1.0\nelement vertex 1000\nproperty float x\n"
+    "property float y\nproperty float z\nend_header\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Scans, BadInput,
+    testing::Values(BadScan{"empty.ply", "", "empty"},
+                    BadScan{"truncated.ply", ply_header + std::string(500, 'x'), "truncated"},
+                    BadScan{"two.xyz", "0 0 0\n1 1 1\n", "three points"},
+                    BadScan{"nan.xyz", lines(100, [](int) { return std::string("nan inf 0"); }), "finite"},
+                    BadScan{"plane.xyz", lines(40000, grid_point), "no room"},
+                    BadScan{"one_place.xyz", lines(5000, [](int) { return std::string("1 2 3"); }), "plan"}),
+    [](const auto& test) { return fs::path(test.param.name).stem().string(); });
+
+}  // namespace
+}  // namespace atrium::test
