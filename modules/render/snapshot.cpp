@@ -86,6 +86,23 @@ std::vector<Colour> primitive_colours(const PlanePrimitives& planes) {
   return colours;
 }
 
+/// The points of structural primitives, each in the colour of its class.
+Cloud structural_points(const Structure& structure, bool ceilings) {
+  const PlanePrimitives& planes = *structure.primitives;
+  std::vector<std::uint32_t> chosen;
+  std::vector<Colour> colours;
+  for (std::size_t k = 0; k < planes.primitives.size(); ++k) {
+    const SurfaceClass surface = structure.classes[k];
+    if (surface == SurfaceClass::object || (surface == SurfaceClass::ceiling && !ceilings)) continue;
+    const auto& inliers = planes.primitives[k].inliers;
+    chosen.insert(chosen.end(), inliers.begin(), inliers.end());
+    colours.insert(colours.end(), inliers.size(), class_colour(surface));
+  }
+  Cloud cloud = select(*planes.cloud, chosen);
+  cloud.colours = std::move(colours);
+  return cloud;
+}
+
 Mesh triangulated(const PlaneMeshes& meshes) {
   Mesh result;
   result.origin = meshes.origin;
@@ -109,7 +126,11 @@ void add_inputs(Drawing& drawing, const Snapshot::In& in, const Params& params, 
     drawing.add_cloud(*in.cloud, cloud_colours(*in.cloud, params.colour_by, to_upright), points);
   if (in.planes && !in.planes->cloud->points.empty())
     drawing.add_cloud(*in.planes->cloud, primitive_colours(*in.planes), points);
-  const Drawing::MeshStyle surfaces{params.edges, true, params.ceilings, false};
+  if (in.structure) {
+    const Cloud cloud = structural_points(*in.structure, params.ceilings);
+    drawing.add_cloud(cloud, cloud.colours, {params.point_size, 2000000, 0});
+  }
+  const Drawing::MeshStyle surfaces{params.edges, !params.ceilings, params.ceilings, false};
   if (in.meshes) drawing.add_mesh(triangulated(*in.meshes), surfaces);
   if (in.meshes && in.adjacency) drawing.add_adjacency(*in.meshes, *in.adjacency);
   if (in.mesh) drawing.add_mesh(*in.mesh, surfaces);
@@ -119,7 +140,7 @@ void add_inputs(Drawing& drawing, const Snapshot::In& in, const Params& params, 
 
 std::vector<std::pair<std::string, Colour>> legend_of(const Snapshot::In& in, bool ceilings) {
   std::vector<std::pair<std::string, Colour>> legend;
-  if (!in.meshes && !in.mesh && !in.truth) return legend;
+  if (!in.meshes && !in.mesh && !in.truth && !in.structure) return legend;
   for (const auto surface : {SurfaceClass::wall, SurfaceClass::floor, SurfaceClass::ceiling, SurfaceClass::object})
     if (ceilings || surface != SurfaceClass::ceiling)
       legend.emplace_back(std::string(name_of(surface)), class_colour(surface));

@@ -11,6 +11,7 @@
 #include "modules/types/picture.hpp"
 #include "modules/types/plane_meshes.hpp"
 #include "modules/types/plane_primitives.hpp"
+#include "modules/types/structure.hpp"
 
 namespace atrium::render {
 
@@ -26,6 +27,7 @@ struct Snapshot {
   struct In {
     OptionalInput<Cloud> cloud;
     OptionalInput<PlanePrimitives> planes;
+    OptionalInput<Structure> structure;
     OptionalInput<PlaneMeshes> meshes;
     OptionalInput<Adjacency> adjacency;
     OptionalInput<Mesh> mesh;
@@ -60,6 +62,7 @@ struct Snapshot {
   static constexpr auto inputs = std::tuple{
       port(&In::cloud, "cloud", "Points."),
       port(&In::planes, "planes", "Planar primitives: their points, a colour each, the others grey."),
+      port(&In::structure, "structure", "The points of walls, floors and ceilings, coloured by class."),
       port(&In::meshes, "meshes", "Planar meshes, coloured by class."),
       port(&In::adjacency, "adjacency", "Drawn as lines between the centres of `meshes`, which it needs."),
       port(&In::mesh, "mesh", "A structural or scene mesh, coloured by class."),
@@ -87,7 +90,8 @@ struct Snapshot {
             "Colour of the cloud; automatic: its own colours where it has them, else height."),
       param(&Params::point_size, "point_size", unitless, within(1, 20), "Pixels."),
       param(&Params::perspective, "perspective", "Perspective instead of parallel projection."),
-      param(&Params::ceilings, "ceilings", "Draw ceilings too."),
+      param(&Params::ceilings, "ceilings",
+            "Draw ceilings too, and every face from both sides: the building as it is seen from outside."),
       param(
           &Params::cut_below_top, "cut_below_top", metres, within(0, 100),
           "Points nearer than this to the top of the cloud are left out in the isometric and top views, so that rooms "
