@@ -43,6 +43,7 @@ void translate(PlaneMesh& mesh, const Line& line, double max_separation) {
   const auto& corners = mesh.corners;
   const std::size_t n = corners.size();
   std::vector<double> distances;
+  distances.reserve(n);
   for (const auto& corner : corners) distances.push_back((line.nearest(corner) - corner).norm());
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0);
