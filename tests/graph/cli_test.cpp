@@ -21,11 +21,13 @@ class CommandLine : public testing::Test {
     int code;
     std::string out, err;
   };
-  Result run(const std::string& arguments) {
-    const std::string plugins = std::string(ATRIUM_PROGRAM) + "/../../tests/plugins";
+  const std::string plugins_of_tests =
+      std::filesystem::path(ATRIUM_PROGRAM).parent_path().parent_path() / "tests/plugins";
+  Result run(const std::string& arguments) { return run(arguments, plugins_of_tests); }
+  Result run(const std::string& arguments, const std::string& plugins) {
     const auto err = folder.path() / "stderr";
-    const std::string command = "cd '" + folder.path().string() + "' && ATRIUM_PLUGIN_PATH=$(realpath -m '" + plugins +
-                                "') '" + ATRIUM_PROGRAM + "' " + arguments + " 2>'" + err.string() + "'";
+    const std::string command = "cd '" + folder.path().string() + "' && ATRIUM_PLUGIN_PATH='" + plugins + "' '" +
+                                ATRIUM_PROGRAM + "' " + arguments + " 2>'" + err.string() + "'";
     Result result;
     FILE* pipe = ::popen(command.c_str(), "r");
     char block[4096];
@@ -130,6 +132,22 @@ TEST_F(CommandLine, GraphDrawsNodesAndSubPipelines) {
   EXPECT_EQ(mermaid.find("flowchart LR\n"), 0U);
   EXPECT_NE(mermaid.find("n0 -- \"cloud\" --> n1"), std::string::npos);
   EXPECT_EQ(run("graph bad.yaml").code, 3);
+}
+
+TEST_F(CommandLine, SchemaHasARuleForEachNodeType) {
+  EXPECT_EQ(run("schema").code, 5);  // some plugins of the tests are broken on purpose
+  std::filesystem::create_directories(folder.path() / "plugins");
+  std::filesystem::copy(plugins_of_tests + "/libatrium_test.so", folder.path() / "plugins");
+  const Result result = run("schema", folder.path() / "plugins");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json schema = Json::parse(result.out);
+  EXPECT_EQ(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+  const Json& find = schema["$defs"]["test.find"]["properties"];
+  EXPECT_EQ(find["in"]["required"], Json::array({"cloud"}));
+  EXPECT_EQ(find["params"]["additionalProperties"], false);
+  EXPECT_EQ(find["params"]["properties"]["distance"]["default"], 0.5);
+  EXPECT_EQ(find["params"]["properties"]["distance"]["anyOf"][0]["anyOf"][0]["maximum"], 10.0);
+  EXPECT_EQ(schema["$defs"]["node"]["allOf"].size(), schema["$defs"]["node"]["properties"]["type"]["enum"].size());
 }
 
 TEST_F(CommandLine, HelpGoesToStdout) {
