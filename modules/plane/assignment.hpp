@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "graph/api/context.hpp"
-#include "modules/plane/plane_cells.hpp"
+#include "modules/plane/cell_set.hpp"
 #include "modules/plane/point_octree.hpp"
 #include "modules/types/plane_primitives.hpp"
 
@@ -12,8 +12,8 @@ namespace atrium::plane {
 
 /// A plane and where in it the surface is.
 struct Patch {
-  Plane plane;       ///< in the columns' frame, turned to the side from which it was seen
-  PlaneCells cells;  ///< its connected component, and the cells that touch it
+  Plane plane;    ///< in the columns' frame, turned to the side from which it was seen
+  CellSet cells;  ///< its connected component, and the cells that touch it
 };
 
 /// For each point, in Morton order, the nearest of the patches that it supports and lies over; -1: none. Of patches at

@@ -1,53 +1,94 @@
 #include "modules/plane/plane_cells.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
 namespace atrium::plane {
+namespace {
 
-PlaneCells::PlaneCells(const Eigen::Vector3d& normal, double reach) : tile_table_(64, absent) {
-  // All points of a cell are within reach of each other.
-  const double edge = reach / std::sqrt(2.0);
-  const Eigen::Vector3d u = normal.unitOrthogonal();
-  u_ = (u / edge).cast<float>();
-  v_ = (normal.cross(u) / edge).cast<float>();
-}
+using Step = std::array<std::int32_t, 2>;
+// Half of the cells within reach, the nearest first: most of the others are connected through them then.
+constexpr std::array<Step, 4> near_steps{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
+constexpr std::array<Step, 12> far_steps{
+    {{2, 0}, {0, 2}, {2, 1}, {1, 2}, {2, -1}, {1, -2}, {-2, 0}, {0, -2}, {-2, -1}, {-1, -2}, {-2, 1}, {-1, 2}}};
 
-Eigen::Vector2f PlaneCells::position(const Eigen::Vector3f& p) const {
-  constexpr float limit = 1e9F;  // cells further off than this share one
-  return {std::clamp(u_.dot(p), -limit, limit), std::clamp(v_.dot(p), -limit, limit)};
-}
+}  // namespace
 
-PlaneCells::Index PlaneCells::index(const Eigen::Vector2f& at) {
-  return {static_cast<std::int32_t>(std::floor(at.x())), static_cast<std::int32_t>(std::floor(at.y()))};
-}
+/// The cells around those of a tile.
+class PlaneCells::Neighbours {
+ public:
+  Neighbours(const PlaneCells& cells, std::uint32_t tile) : cells_(cells) {
+    const std::uint64_t key = cells.tiles_.key(tile);
+    const auto u = static_cast<std::int32_t>(key >> 32U);
+    const auto v = static_cast<std::int32_t>(key & 0xffffffffU);
+    for (std::int32_t du = -1; du <= 1; ++du)
+      for (std::int32_t dv = -1; dv <= 1; ++dv)
+        tiles_[place(du, dv)] = du == 0 && dv == 0 ? tile : cells.tiles_.find(CellFrame::tile_key(u + du, v + dv));
+  }
+  /// The cell at (u, v) from the tile's first one, at most a tile away; or absent.
+  std::uint32_t at(std::int32_t u, std::int32_t v) const {
+    const std::uint32_t tile = tiles_[place(u >> CellFrame::tile_bits, v >> CellFrame::tile_bits)];
+    return tile == absent ? absent : cells_.cells_[tile * CellFrame::tile_cells + CellFrame::place_in_tile({u, v})];
+  }
 
-std::size_t PlaneCells::place_in_tile(Index i) {
-  constexpr std::uint32_t mask = (1U << tile_bits) - 1;
-  return (static_cast<std::uint32_t>(i.u) & mask) << tile_bits | (static_cast<std::uint32_t>(i.v) & mask);
-}
+ private:
+  static std::size_t place(std::int32_t u, std::int32_t v) { return static_cast<std::size_t>(3 * u + v + 4); }
+  const PlaneCells& cells_;
+  std::array<std::uint32_t, 9> tiles_{};
+};
 
-std::uint64_t PlaneCells::tile_key(Index i) {
-  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i.u >> tile_bits)) << 32U |
-         static_cast<std::uint32_t>(i.v >> tile_bits);
-}
+/// Disjoint sets of cells, named by their smallest member.
+class PlaneCells::Forest {
+ public:
+  explicit Forest(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { parent_[std::max(a, b)] = std::min(a, b); }
+  std::vector<std::uint32_t> roots() {
+    for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = root(i);
+    return parent_;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+// All points of a cell are within reach of each other.
+PlaneCells::PlaneCells(const Eigen::Vector3d& normal, double reach) : frame_(normal, reach / std::sqrt(2.0)) {}
 
 std::uint32_t PlaneCells::add(const Eigen::Vector3f& p) {
-  const Eigen::Vector2f at = position(p);
-  const std::uint32_t cell = insert(index(at));
-  if (cell == first_.size()) {
-    first_.push_back(absent);
-    filled_.push_back(0);
-  }
-  const auto part = [](float t) { return std::min(static_cast<unsigned>((t - std::floor(t)) * 8), 7U); };
-  const std::uint64_t bit = 1ULL << (part(at.x()) * 8 + part(at.y()));
+  const Eigen::Vector2f at = frame_.position(p);
+  const CellFrame::Index i = CellFrame::index(at);
+  const std::uint32_t cell = insert(i);
+  const auto part = [](float t, std::int32_t whole) {
+    return std::min(static_cast<std::uint32_t>(static_cast<std::int32_t>((t - static_cast<float>(whole)) * 8)), 7U);
+  };
+  const std::uint64_t bit = 1ULL << (part(at.x(), i.u) * 8 + part(at.y(), i.v));
   if ((filled_[cell] & bit) == 0) {
     filled_[cell] |= bit;
     samples_.push_back({at, first_[cell]});
     first_[cell] = static_cast<std::uint32_t>(samples_.size() - 1);
+  }
+  return cell;
+}
+
+std::uint32_t PlaneCells::insert(CellFrame::Index i) {
+  const std::uint64_t key = CellFrame::tile_key(i);
+  if (key != last_key_ || last_tile_ == absent) {
+    last_key_ = key;
+    last_tile_ = tiles_.insert(key);
+    if (tiles_.size() * CellFrame::tile_cells > cells_.size())
+      cells_.resize(tiles_.size() * CellFrame::tile_cells, absent);
+  }
+  std::uint32_t& cell = cells_[last_tile_ * CellFrame::tile_cells + CellFrame::place_in_tile(i)];
+  if (cell == absent) {
+    cell = static_cast<std::uint32_t>(indices_.size());
+    indices_.push_back(i);
+    first_.push_back(absent);
+    filled_.push_back(0);
   }
   return cell;
 }
@@ -60,74 +101,57 @@ bool PlaneCells::linked(std::uint32_t a, std::uint32_t b) const {
   return false;
 }
 
-std::size_t PlaneCells::slot(std::uint64_t tile) const {
-  const std::size_t mask = tile_table_.size() - 1;
-  std::size_t s = (tile * 0x9e3779b97f4a7c15ULL >> 32U) & mask;
-  while (tile_table_[s] != absent && tile_keys_[tile_table_[s]] != tile) s = (s + 1) & mask;
-  return s;
+void PlaneCells::link(std::uint32_t cell, std::uint32_t other, Forest& forest) const {
+  if (other == absent) return;
+  const std::uint32_t a = forest.root(cell);
+  const std::uint32_t b = forest.root(other);
+  if (a != b && linked(cell, other)) forest.join(a, b);
 }
 
-std::uint32_t PlaneCells::find(Index i) const {
-  const std::uint32_t tile = tile_table_[slot(tile_key(i))];
-  return tile == absent ? absent : cells_[tile * tile_cells + place_in_tile(i)];
-}
-
-std::uint32_t PlaneCells::insert(Index i) {
-  const std::uint64_t key = tile_key(i);
-  std::size_t s = slot(key);
-  if (tile_table_[s] == absent) {
-    if (2 * tile_keys_.size() >= tile_table_.size()) {
-      grow();
-      s = slot(key);
-    }
-    tile_table_[s] = static_cast<std::uint32_t>(tile_keys_.size());
-    tile_keys_.push_back(key);
-    cells_.resize(cells_.size() + tile_cells, absent);
+template <class Visit>
+void PlaneCells::visit_cells(Visit visit) const {
+  constexpr std::int32_t edge = 1 << CellFrame::tile_bits;
+  for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile) {
+    const Neighbours around(*this, tile);
+    for (std::int32_t u = 0; u < edge; ++u)
+      for (std::int32_t v = 0; v < edge; ++v) {
+        const std::uint32_t cell = around.at(u, v);
+        if (cell != absent) visit(cell, [&](const Step& step) { return around.at(u + step[0], v + step[1]); });
+      }
   }
-  std::uint32_t& cell = cells_[tile_table_[s] * tile_cells + place_in_tile(i)];
-  if (cell == absent) {
-    cell = static_cast<std::uint32_t>(indices_.size());
-    indices_.push_back(i);
-  }
-  return cell;
-}
-
-void PlaneCells::grow() {
-  tile_table_.assign(4 * tile_table_.size(), absent);
-  for (std::uint32_t i = 0; i < tile_keys_.size(); ++i) tile_table_[slot(tile_keys_[i])] = i;
 }
 
 std::vector<std::uint32_t> PlaneCells::components() const {
-  std::vector<std::uint32_t> parent(indices_.size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&](std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  // Half of the cells that are within reach, the nearest first: most of the others are connected through them then.
-  constexpr std::array<std::array<std::int32_t, 2>, 10> steps{
-      {{1, 0}, {0, 1}, {1, 1}, {1, -1}, {2, 0}, {0, 2}, {2, 1}, {1, 2}, {2, -1}, {1, -2}}};
-  for (const auto& [du, dv] : steps)
-    for (std::uint32_t i = 0; i < indices_.size(); ++i) {
-      const std::uint32_t other = find({indices_[i].u + du, indices_[i].v + dv});
-      if (other == absent) continue;
-      const std::uint32_t a = root(i);
-      const std::uint32_t b = root(other);
-      if (a != b && linked(i, other)) parent[std::max(a, b)] = std::min(a, b);
-    }
-  for (std::uint32_t i = 0; i < indices_.size(); ++i) parent[i] = root(i);
-  return parent;
+  Forest forest(size());
+  visit_cells([&](std::uint32_t cell, auto neighbour) {
+    for (const Step& step : near_steps) link(cell, neighbour(step), forest);
+  });
+  // Mostly one component has nearly all cells by now: links within it would tell nothing.
+  const std::vector<std::uint32_t> so_far = forest.roots();
+  std::vector<std::uint32_t> sizes(size(), 0);
+  for (const std::uint32_t root : so_far) ++sizes[root];
+  const auto largest = static_cast<std::uint32_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  visit_cells([&](std::uint32_t cell, auto neighbour) {
+    if (so_far[cell] == largest) return;
+    for (const Step& step : far_steps) link(cell, neighbour(step), forest);
+  });
+  return forest.roots();
 }
 
-PlaneCells PlaneCells::dilated(const std::vector<bool>& chosen) const {
-  PlaneCells result;
-  result.u_ = u_;
-  result.v_ = v_;
-  result.tile_table_.assign(64, absent);
-  for (std::uint32_t i = 0; i < indices_.size(); ++i) {
-    if (!chosen[i]) continue;
-    for (std::int32_t du = -1; du <= 1; ++du)
-      for (std::int32_t dv = -1; dv <= 1; ++dv) result.insert({indices_[i].u + du, indices_[i].v + dv});
+CellSet PlaneCells::dilated(const std::vector<bool>& chosen) const {
+  constexpr std::size_t edge = 1U << CellFrame::tile_bits;
+  CellSet result(frame_);
+  for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile) {
+    CellSet::Rows rows{};
+    bool any = false;
+    for (std::size_t k = 0; k < CellFrame::tile_cells; ++k) {
+      const std::uint32_t cell = cells_[tile * CellFrame::tile_cells + k];
+      if (cell == absent || !chosen[cell]) continue;
+      rows[k / edge] |= static_cast<std::uint16_t>(1U << (k % edge));
+      any = true;
+    }
+    const std::uint64_t key = tiles_.key(tile);
+    if (any) result.add_dilated(static_cast<std::int32_t>(key >> 32U), static_cast<std::int32_t>(key), rows);
   }
   return result;
 }

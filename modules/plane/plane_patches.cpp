@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/plane/plane_cells.hpp"
+
 namespace atrium::plane {
 namespace {
 
@@ -22,8 +24,8 @@ std::vector<std::uint32_t> some_places(const Support& support, const RandomSubse
 }
 
 /// Reduces the support to its largest component; the cells are those of the component and what touches them.
-PlaneCells keep_largest_component(Support& support, const RandomSubsets& subsets, const Eigen::Vector3d& normal,
-                                  double distance) {
+CellSet keep_largest_component(Support& support, const RandomSubsets& subsets, const Eigen::Vector3d& normal,
+                               double distance) {
   PlaneCells cells(normal, distance);
   std::vector<std::vector<std::uint32_t>> cell_of(support.size());
   std::vector<std::size_t> points;
@@ -42,12 +44,12 @@ PlaneCells keep_largest_component(Support& support, const RandomSubsets& subsets
   const auto largest = static_cast<std::uint32_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
   std::vector<bool> chosen(component.size());
   for (std::size_t i = 0; i < component.size(); ++i) chosen[i] = component[i] == largest;
-  PlaneCells kept = cells.dilated(chosen);
+  CellSet kept = cells.dilated(chosen);
+  for (std::uint32_t i = 0; i < chosen.size(); ++i) chosen[i] = chosen[i] || kept.contains(cells.index(i));
   for (std::size_t k = 0; k < support.size(); ++k) {
     std::size_t to = 0;
     for (std::size_t j = 0; j < support[k].size(); ++j) {
-      const std::uint32_t i = support[k][j];
-      if (chosen[cell_of[k][j]] || kept.contains(subsets[k].columns.point(i))) support[k][to++] = i;
+      if (chosen[cell_of[k][j]]) support[k][to++] = support[k][j];
     }
     support[k].resize(to);
   }

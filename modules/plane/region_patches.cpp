@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/plane/plane_cells.hpp"
+
 namespace atrium::plane {
 
 RegionPatches::Support RegionPatches::support(const Region& region) const {
