@@ -10,15 +10,15 @@ namespace {
 using Step = std::array<std::int32_t, 2>;
 // Half of the cells within reach, the nearest first: most of the others are connected through them then.
 constexpr std::array<Step, 4> near_steps{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
-constexpr std::array<Step, 12> far_steps{
-    {{2, 0}, {0, 2}, {2, 1}, {1, 2}, {2, -1}, {1, -2}, {-2, 0}, {0, -2}, {-2, -1}, {-1, -2}, {-2, 1}, {-1, 2}}};
+constexpr std::array<Step, 6> far_steps{{{2, 0}, {0, 2}, {2, 1}, {1, 2}, {2, -1}, {1, -2}}};
+constexpr std::size_t chunk_tiles = 32;
 
 }  // namespace
 
 /// The cells around those of a tile.
 class PlaneCells::Neighbours {
  public:
-  Neighbours(const PlaneCells& cells, std::uint32_t tile) : cells_(cells) {
+  Neighbours(const PlaneCells& cells, std::uint32_t tile) {
     const std::uint64_t key = cells.tiles_.key(tile);
     const auto u = static_cast<std::int32_t>(key >> 32U);
     const auto v = static_cast<std::int32_t>(key & 0xffffffffU);
@@ -26,15 +26,13 @@ class PlaneCells::Neighbours {
       for (std::int32_t dv = -1; dv <= 1; ++dv)
         tiles_[place(du, dv)] = du == 0 && dv == 0 ? tile : cells.tiles_.find(CellFrame::tile_key(u + du, v + dv));
   }
-  /// The cell at (u, v) from the tile's first one, at most a tile away; or absent.
-  std::uint32_t at(std::int32_t u, std::int32_t v) const {
-    const std::uint32_t tile = tiles_[place(u >> CellFrame::tile_bits, v >> CellFrame::tile_bits)];
-    return tile == absent ? absent : cells_.cells_[tile * CellFrame::tile_cells + CellFrame::place_in_tile({u, v})];
+  /// The tile of the cell at (u, v) from the tile's first one, at most a tile away; or absent.
+  std::uint32_t tile(std::int32_t u, std::int32_t v) const {
+    return tiles_[place(u >> CellFrame::tile_bits, v >> CellFrame::tile_bits)];
   }
 
  private:
   static std::size_t place(std::int32_t u, std::int32_t v) { return static_cast<std::size_t>(3 * u + v + 4); }
-  const PlaneCells& cells_;
   std::array<std::uint32_t, 9> tiles_{};
 };
 
@@ -82,11 +80,14 @@ std::uint32_t PlaneCells::insert(CellFrame::Index i) {
     last_tile_ = tiles_.insert(key);
     if (tiles_.size() * CellFrame::tile_cells > cells_.size())
       cells_.resize(tiles_.size() * CellFrame::tile_cells, absent);
+    occupied_.resize(tiles_.size());
   }
   std::uint32_t& cell = cells_[last_tile_ * CellFrame::tile_cells + CellFrame::place_in_tile(i)];
   if (cell == absent) {
     cell = static_cast<std::uint32_t>(indices_.size());
     indices_.push_back(i);
+    const std::size_t place = CellFrame::place_in_tile(i);
+    occupied_[last_tile_][place / tile_edge] |= static_cast<std::uint16_t>(1U << (place % tile_edge));
     first_.push_back(absent);
     filled_.push_back(0);
   }
@@ -101,45 +102,68 @@ bool PlaneCells::linked(std::uint32_t a, std::uint32_t b) const {
   return false;
 }
 
-void PlaneCells::link(std::uint32_t cell, std::uint32_t other, Forest& forest) const {
-  if (other == absent) return;
-  const std::uint32_t a = forest.root(cell);
-  const std::uint32_t b = forest.root(other);
-  if (a != b && linked(cell, other)) forest.join(a, b);
-}
-
-template <class Visit>
-void PlaneCells::visit_cells(Visit visit) const {
-  constexpr std::int32_t edge = 1 << CellFrame::tile_bits;
-  for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile) {
-    const Neighbours around(*this, tile);
+template <class Steps, class Visit>
+void PlaneCells::visit_pairs(std::size_t begin, std::size_t end, const Steps& steps, Visit visit) const {
+  constexpr auto edge = static_cast<std::int32_t>(tile_edge);
+  for (std::size_t tile = begin; tile < end; ++tile) {
+    const Neighbours around(*this, static_cast<std::uint32_t>(tile));
     for (std::int32_t u = 0; u < edge; ++u)
-      for (std::int32_t v = 0; v < edge; ++v) {
-        const std::uint32_t cell = around.at(u, v);
-        if (cell != absent) visit(cell, [&](const Step& step) { return around.at(u + step[0], v + step[1]); });
+      for (std::uint32_t left = occupied_[tile][static_cast<std::size_t>(u)]; left != 0; left &= left - 1) {
+        const std::int32_t v = __builtin_ctz(left);
+        const std::uint32_t cell = at(static_cast<std::uint32_t>(tile), {u, v});
+        for (const Step& step : steps) {
+          const std::uint32_t tile_there = around.tile(u + step[0], v + step[1]);
+          if (tile_there == absent) continue;
+          const std::uint32_t other = at(tile_there, {u + step[0], v + step[1]});
+          if (other != absent) visit(cell, other, tile_there);
+        }
       }
   }
 }
 
-std::vector<std::uint32_t> PlaneCells::components() const {
-  Forest forest(size());
-  visit_cells([&](std::uint32_t cell, auto neighbour) {
-    for (const Step& step : near_steps) link(cell, neighbour(step), forest);
+/// Joins linked cells that touch.
+void PlaneCells::join_near(Forest& forest, const Context& context) const {
+  const auto link = [&](std::uint32_t cell, std::uint32_t other) {
+    const std::uint32_t a = forest.root(cell);
+    const std::uint32_t b = forest.root(other);
+    if (a != b && linked(cell, other)) forest.join(a, b);
+  };
+  // Within a chunk at once, as no other chunk knows its cells yet; across chunks afterwards.
+  std::vector<Pairs> across((tiles_.size() + chunk_tiles - 1) / chunk_tiles);
+  context.parallel_chunks(tiles_.size(), chunk_tiles, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    visit_pairs(begin, end, near_steps, [&](std::uint32_t cell, std::uint32_t other, std::uint32_t tile) {
+      if (tile >= begin && tile < end) {
+        link(cell, other);
+      } else {
+        across[chunk].emplace_back(cell, other);
+      }
+    });
   });
-  // Mostly one component has nearly all cells by now: links within it would tell nothing.
+  for (const Pairs& pairs : across)
+    for (const auto& [cell, other] : pairs) link(cell, other);
+}
+
+/// Joins linked cells that do not touch.
+void PlaneCells::join_far(Forest& forest, const Context& context) const {
   const std::vector<std::uint32_t> so_far = forest.roots();
-  std::vector<std::uint32_t> sizes(size(), 0);
-  for (const std::uint32_t root : so_far) ++sizes[root];
-  const auto largest = static_cast<std::uint32_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-  visit_cells([&](std::uint32_t cell, auto neighbour) {
-    if (so_far[cell] == largest) return;
-    for (const Step& step : far_steps) link(cell, neighbour(step), forest);
+  std::vector<Pairs> found((tiles_.size() + chunk_tiles - 1) / chunk_tiles);
+  context.parallel_chunks(tiles_.size(), chunk_tiles, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    visit_pairs(begin, end, far_steps, [&](std::uint32_t cell, std::uint32_t other, std::uint32_t) {
+      if (so_far[cell] != so_far[other] && linked(cell, other)) found[chunk].emplace_back(cell, other);
+    });
   });
+  for (const Pairs& pairs : found)
+    for (const auto& [cell, other] : pairs) forest.join(forest.root(cell), forest.root(other));
+}
+
+std::vector<std::uint32_t> PlaneCells::components(const Context& context) const {
+  Forest forest(size());
+  join_near(forest, context);
+  join_far(forest, context);
   return forest.roots();
 }
 
 CellSet PlaneCells::dilated(const std::vector<bool>& chosen) const {
-  constexpr std::size_t edge = 1U << CellFrame::tile_bits;
   CellSet result(frame_);
   for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile) {
     CellSet::Rows rows{};
@@ -147,7 +171,7 @@ CellSet PlaneCells::dilated(const std::vector<bool>& chosen) const {
     for (std::size_t k = 0; k < CellFrame::tile_cells; ++k) {
       const std::uint32_t cell = cells_[tile * CellFrame::tile_cells + k];
       if (cell == absent || !chosen[cell]) continue;
-      rows[k / edge] |= static_cast<std::uint16_t>(1U << (k % edge));
+      rows[k / tile_edge] |= static_cast<std::uint16_t>(1U << (k % tile_edge));
       any = true;
     }
     const std::uint64_t key = tiles_.key(tile);

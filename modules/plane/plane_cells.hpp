@@ -2,8 +2,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "graph/api/context.hpp"
 #include "modules/plane/cell_set.hpp"
 
 namespace atrium::plane {
@@ -22,7 +24,7 @@ class PlaneCells {
   CellFrame::Index index(std::uint32_t cell) const { return indices_[cell]; }
 
   /// For each cell the number of its component: that of the component's first cell.
-  std::vector<std::uint32_t> components() const;
+  std::vector<std::uint32_t> components(const Context& context) const;
   /// The chosen cells and those that touch them.
   CellSet dilated(const std::vector<bool>& chosen) const;
 
@@ -33,14 +35,20 @@ class PlaneCells {
     Eigen::Vector2f at;  ///< in cells
     std::uint32_t next;  ///< of the same cell
   };
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  static constexpr std::size_t tile_edge = 1U << CellFrame::tile_bits;
   class Neighbours;
   class Forest;
   std::uint32_t insert(CellFrame::Index i);
   bool linked(std::uint32_t a, std::uint32_t b) const;
-  void link(std::uint32_t cell, std::uint32_t other, Forest& forest) const;
-  /// Calls visit(cell, its neighbours) for each cell, tile by tile.
-  template <class Visit>
-  void visit_cells(Visit visit) const;
+  std::uint32_t at(std::size_t tile, CellFrame::Index i) const {
+    return cells_[tile * CellFrame::tile_cells + CellFrame::place_in_tile(i)];
+  }
+  /// Calls visit(cell, other, tile of the other) for the cells of the tiles [begin, end) and those a step away.
+  template <class Steps, class Visit>
+  void visit_pairs(std::size_t begin, std::size_t end, const Steps& steps, Visit visit) const;
+  void join_near(Forest& forest, const Context& context) const;
+  void join_far(Forest& forest, const Context& context) const;
 
   CellFrame frame_;
   TileTable tiles_;
@@ -48,6 +56,7 @@ class PlaneCells {
   std::uint32_t last_tile_ = absent;
   std::vector<CellFrame::Index> indices_;  ///< of the cells, in the order in which they were made
   std::vector<std::uint32_t> cells_;       ///< numbers of cells, tile by tile
+  std::vector<CellSet::Rows> occupied_;    ///< per tile
   std::vector<std::uint32_t> first_;       ///< per cell: its first sample
   std::vector<std::uint64_t> filled_;      ///< per cell: which of its 8 × 8 parts have a sample
   std::vector<Sample> samples_;

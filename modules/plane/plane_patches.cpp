@@ -25,7 +25,7 @@ std::vector<std::uint32_t> some_places(const Support& support, const RandomSubse
 
 /// Reduces the support to its largest component; the cells are those of the component and what touches them.
 CellSet keep_largest_component(Support& support, const RandomSubsets& subsets, const Eigen::Vector3d& normal,
-                               double distance) {
+                               double distance, const Context& context) {
   PlaneCells cells(normal, distance);
   std::vector<std::vector<std::uint32_t>> cell_of(support.size());
   std::vector<std::size_t> points;
@@ -38,7 +38,7 @@ CellSet keep_largest_component(Support& support, const RandomSubsets& subsets, c
       cell_of[k].push_back(cell);
     }
   }
-  const std::vector<std::uint32_t> component = cells.components();
+  const std::vector<std::uint32_t> component = cells.components(context);
   std::vector<std::size_t> sizes(component.size(), 0);
   for (std::size_t i = 0; i < component.size(); ++i) sizes[component[i]] += points[i];
   const auto largest = static_cast<std::uint32_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
@@ -85,7 +85,7 @@ std::optional<FittedPatch> fit_patch(const FloatPlane& plane, const RandomSubset
   for (std::size_t k = 0; k < part; ++k) sampled += static_cast<double>(subsets[k].live);
   reach *= std::sqrt(static_cast<double>(subsets.live()) / std::max(1.0, sampled));
   const Eigen::Vector3d normal = plane.normal.cast<double>().normalized();
-  result.patch.cells = keep_largest_component(result.support, subsets, normal, reach);
+  result.patch.cells = keep_largest_component(result.support, subsets, normal, reach, context);
   const Moments moments = moments_of(result.support, subsets);
   if (moments.count < 3) return std::nullopt;
   result.points = moments.count;

@@ -206,8 +206,10 @@ void PlaneSearch::take_sample(Fitted& fitted) const {
 
 void PlaneSearch::take_out(const FittedPatch& found, std::int32_t number) {
   for (std::size_t k = 0; k < found.support.size(); ++k)
-    for (const std::uint32_t i : found.support[k]) owner_[(*subsets_)[k].place[i]] = number;
-  subsets_->take_out(found.support);
+    context_.parallel_for(found.support[k].size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) owner_[(*subsets_)[k].place[found.support[k][i]]] = number;
+    });
+  subsets_->take_out(found.support, context_);
   ++round_;
   if (2 * subsets_->live() < subsets_->built()) divide();
   // The plane may have further components.

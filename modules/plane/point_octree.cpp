@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "modules/geometry/radix_sort.hpp"
+
 namespace atrium::plane {
 namespace {
 
@@ -44,6 +46,73 @@ Eigen::Vector3d sampled_median(const Cloud& cloud) {
   return median;
 }
 
+struct Item {
+  std::uint64_t code;
+  std::uint32_t index;
+};
+
+/// Codes of cells within 2^k of the centre along each axis, in 3 (k + 1) bits: the bits between the sign and the last k
+/// of an axis are all the opposite of the sign, which is the code's highest bit.
+struct ShortCodes {
+  unsigned levels;  ///< k
+
+  std::uint64_t mask() const { return (std::uint64_t{1} << (3 * levels)) - 1; }
+  std::uint64_t shorten(std::uint64_t code) const {
+    return (code >> (3 * (bits_per_axis - 1))) << (3 * levels) | (code & mask());
+  }
+  std::uint64_t lengthen(std::uint64_t code) const {
+    const std::uint64_t signs = code >> (3 * levels);
+    std::uint64_t result = signs;
+    for (unsigned level = bits_per_axis - 1; level > levels; --level) result = result << 3U | (~signs & 7U);
+    return result << (3 * levels) | (code & mask());
+  }
+};
+
+unsigned bit_width(std::uint64_t v) { return v == 0 ? 0 : 64U - static_cast<unsigned>(__builtin_clzll(v)); }
+
+/// How many levels the codes need below their signs.
+ShortCodes short_codes(const std::vector<Item>& items, const Context& context) {
+  constexpr std::size_t size = 65536;
+  constexpr std::uint64_t signs = std::uint64_t{7} << (3 * (bits_per_axis - 1));
+  std::vector<std::uint64_t> used((items.size() + size - 1) / size, 0);
+  context.parallel_chunks(items.size(), size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint64_t sign = items[i].code & signs;
+      // The signs of the axes, repeated over all levels.
+      const std::uint64_t repeated = sign >> (3 * (bits_per_axis - 1)) & 7U;
+      used[chunk] |= (items[i].code ^ (0x1249249249249249ULL * (~repeated & 7U))) & ~signs;
+    }
+  });
+  std::uint64_t all = 0;
+  for (const std::uint64_t u : used) all |= u;
+  return {(bit_width(all) + 2) / 3};
+}
+
+/// Sorts by code, then by index.
+void sort(std::vector<Item>& items, const Context& context) {
+  const ShortCodes codes = short_codes(items, context);
+  const unsigned index_bits = bit_width(items.size());
+  const unsigned code_bits = 3 * (codes.levels + 1);
+  if (index_bits + code_bits > 64) {  // a large scene in small cells
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
+        return a.code != b.code ? a.code < b.code : a.index < b.index;
+      });
+    });
+    return;
+  }
+  std::vector<std::uint64_t> packed(items.size());
+  context.parallel_for(items.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) packed[i] = codes.shorten(items[i].code) << index_bits | items[i].index;
+  });
+  radix_sort(packed, index_bits, index_bits + code_bits, context);
+  const std::uint64_t index_mask = (std::uint64_t{1} << index_bits) - 1;
+  context.parallel_for(items.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      items[i] = {codes.lengthen(packed[i] >> index_bits), static_cast<std::uint32_t>(packed[i] & index_mask)};
+  });
+}
+
 }  // namespace
 
 void PointColumns::resize(std::size_t count) {
@@ -60,20 +129,12 @@ void PointColumns::copy(std::size_t to, const PointColumns& other, std::size_t f
 }
 
 MortonOrder::MortonOrder(const Cloud& cloud, double cell, const Context& context) : centre(sampled_median(cloud)) {
-  struct Item {
-    std::uint64_t code;
-    std::uint32_t index;
-  };
   std::vector<Item> items(cloud.size());
   context.parallel_for(items.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       items[i] = {morton_code(cloud.points[i].cast<double>() - centre, cell), static_cast<std::uint32_t>(i)};
   });
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
-      return a.code != b.code ? a.code < b.code : a.index < b.index;
-    });
-  });
+  sort(items, context);
   codes.resize(items.size());
   index.resize(items.size());
   columns.resize(items.size());

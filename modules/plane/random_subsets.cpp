@@ -191,9 +191,11 @@ Support RandomSubsets::support(const FloatPlane& plane, const Tolerance& toleran
   return result;
 }
 
-void RandomSubsets::take_out(const Support& support) {
+void RandomSubsets::take_out(const Support& support, const Context& context) {
   for (std::size_t k = 0; k < support.size(); ++k) {
-    for (const std::uint32_t i : support[k]) subsets_[k].columns.take_out(i);
+    context.parallel_for(support[k].size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) subsets_[k].columns.take_out(support[k][i]);
+    });
     subsets_[k].live -= support[k].size();
     live_ -= support[k].size();
   }

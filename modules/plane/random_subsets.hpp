@@ -42,7 +42,7 @@ class RandomSubsets {
   /// Support in the first `subsets` subsets.
   Support support(const FloatPlane& plane, const Tolerance& tolerance, std::size_t subsets,
                   const Context& context) const;
-  void take_out(const Support& support);
+  void take_out(const Support& support, const Context& context);
 
  private:
   std::vector<RandomSubset> subsets_;

@@ -80,7 +80,8 @@ std::vector<Patch> find_patches(const Cloud& cloud, const MortonOrder& order, co
   const RegionPatches splitter{order, grid, owner, spacing, cluster_distance, settings.limits};
   std::vector<std::vector<Patch>> found(regions.size());
   context.parallel_chunks(regions.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-    found[i] = splitter.patches(regions[i], static_cast<std::uint32_t>(i), cloud.has_normals() ? nullptr : &free_side);
+    found[i] = splitter.patches(regions[i], static_cast<std::uint32_t>(i), cloud.has_normals() ? nullptr : &free_side,
+                                context);
   });
   std::vector<Patch> patches;
   for (auto& part : found) std::move(part.begin(), part.end(), std::back_inserter(patches));

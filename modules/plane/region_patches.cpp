@@ -27,7 +27,8 @@ RegionPatches::Support RegionPatches::support(const Region& region) const {
   return support;
 }
 
-std::vector<Patch> RegionPatches::patches(const Region& region, std::uint32_t number, const FreeSide* side) const {
+std::vector<Patch> RegionPatches::patches(const Region& region, std::uint32_t number, const FreeSide* side,
+                                          const Context& context) const {
   constexpr std::size_t sample_size = 64;
   const auto [places, share] = support(region);
   // Spread evenly through space, a third would lie in the slab, at an RMS distance of 0.58 of its half width.
@@ -37,7 +38,7 @@ std::vector<Patch> RegionPatches::patches(const Region& region, std::uint32_t nu
   std::vector<std::uint32_t> cell_of;
   cell_of.reserve(places.size());
   for (const std::uint32_t i : places) cell_of.push_back(cells.add(order.columns.point(i)));
-  const std::vector<std::uint32_t> component = cells.components();
+  const std::vector<std::uint32_t> component = cells.components(context);
 
   std::vector<std::vector<std::uint32_t>> members(component.size());
   for (std::size_t k = 0; k < places.size(); ++k) members[component[cell_of[k]]].push_back(places[k]);

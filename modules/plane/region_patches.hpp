@@ -21,7 +21,8 @@ struct RegionPatches {
   GrowthLimits limits;
 
   /// `number`: the region's. Planes are turned by `side`, left as they are if it is null.
-  std::vector<Patch> patches(const Region& region, std::uint32_t number, const FreeSide* side) const;
+  std::vector<Patch> patches(const Region& region, std::uint32_t number, const FreeSide* side,
+                             const Context& context) const;
 
  private:
   struct Support {

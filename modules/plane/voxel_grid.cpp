@@ -66,31 +66,11 @@ void VoxelGrid::measure(Voxel& voxel, const MortonOrder& order, const std::vecto
                  fit.variances[0] < 0.25 * fit.variances[1];
 }
 
-std::uint64_t VoxelGrid::key(const Voxel::Index& index) {
-  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(index[0])) |
-         static_cast<std::uint64_t>(static_cast<std::uint32_t>(index[1])) << 21U |
-         static_cast<std::uint64_t>(static_cast<std::uint32_t>(index[2])) << 42U;
-}
-
-std::size_t VoxelGrid::slot(std::uint64_t key) const {
-  const std::size_t mask = table_.size() - 1;
-  std::size_t s = (key * 0x9e3779b97f4a7c15ULL >> 32U) & mask;
-  while (table_[s].voxel != none && table_[s].key != key) s = (s + 1) & mask;
-  return s;
-}
-
 void VoxelGrid::hash() {
   std::size_t size = 16;
   while (size < 3 * voxels_.size()) size *= 2;
   table_.assign(size, {});
   for (std::uint32_t i = 0; i < voxels_.size(); ++i) table_[slot(key(voxels_[i].index))] = {key(voxels_[i].index), i};
-}
-
-std::uint32_t VoxelGrid::find(const Voxel::Index& index) const {
-  constexpr std::int32_t end = 1 << 21;
-  for (const std::int32_t i : index)
-    if (i < 0 || i >= end) return none;
-  return table_[slot(key(index))].voxel;
 }
 
 Voxel::Index VoxelGrid::index_at(const Eigen::Vector3d& p) const {

@@ -37,7 +37,12 @@ class VoxelGrid {
   const std::vector<Voxel>& voxels() const { return voxels_; }
   double edge() const { return edge_; }
   /// The voxel's number, or none.
-  std::uint32_t find(const Voxel::Index& index) const;
+  std::uint32_t find(const Voxel::Index& index) const {
+    constexpr std::int32_t end = 1 << 21;
+    for (const std::int32_t i : index)
+      if (i < 0 || i >= end) return none;
+    return table_[slot(key(index))].voxel;
+  }
   Voxel::Index index_at(const Eigen::Vector3d& p) const;
   /// Calls visit(number) for the occupied ones of the 26 neighbours.
   template <class Visit>
@@ -52,10 +57,19 @@ class VoxelGrid {
   }
 
  private:
-  static std::uint64_t key(const Voxel::Index& index);
+  static std::uint64_t key(const Voxel::Index& index) {
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(index[0])) |
+           static_cast<std::uint64_t>(static_cast<std::uint32_t>(index[1])) << 21U |
+           static_cast<std::uint64_t>(static_cast<std::uint32_t>(index[2])) << 42U;
+  }
   void measure(Voxel& voxel, const MortonOrder& order, const std::vector<std::int32_t>& owner,
                const Planarity& planarity) const;
-  std::size_t slot(std::uint64_t key) const;
+  std::size_t slot(std::uint64_t key) const {
+    const std::size_t mask = table_.size() - 1;
+    std::size_t s = (key * 0x9e3779b97f4a7c15ULL >> 32U) & mask;
+    while (table_[s].voxel != none && table_[s].key != key) s = (s + 1) & mask;
+    return s;
+  }
   void hash();
 
   double edge_;
