@@ -7,37 +7,12 @@
 #include <limits>
 
 #include "modules/filter/kept.hpp"
-#include "modules/geometry/point_tree.hpp"
+#include "modules/filter/spacing.hpp"
 
 namespace atrium::filter {
 namespace {
 
 constexpr std::size_t chunk_size = 4096;
-
-/// Each point's mean distance to its k nearest others, metres.
-std::vector<float> mean_distances(const std::vector<Eigen::Vector3f>& points, std::size_t k, const Context& context) {
-  const PointTree tree(points, context);
-  std::vector<float> result(points.size());
-  context.parallel_for(
-      points.size(),
-      [&](std::size_t begin, std::size_t end) {
-        std::vector<Neighbour> found;
-        float reach = PointTree::everywhere;
-        for (std::size_t i = begin; i < end; ++i) {
-          const std::uint32_t index = tree.order()[i];
-          tree.k_nearest(points[index], k + 1, found, reach);  // itself at 0, and k others
-          double sum = 0;
-          for (const auto& n : found) sum += static_cast<double>(std::sqrt(n.squared_distance));
-          result[index] = static_cast<float>(sum / static_cast<double>(k));
-          if (i + 1 == end) break;
-          // The next point's neighbours are no further than this one's, seen from there.
-          const float step = (points[tree.order()[i + 1]] - points[index]).norm();
-          reach = (std::sqrt(found.back().squared_distance) + step) * 1.0001F + 1e-12F;
-        }
-      },
-      chunk_size);
-  return result;
-}
 
 /// The largest distance that is normal: mean + deviations · σ over the distances that are at most `limit`.
 double next_limit(const std::vector<float>& distances, double limit, double deviations, const Context& context) {

@@ -16,14 +16,14 @@ using Lanes = float __attribute__((vector_size(16)));  // SSE2
 Lanes load(const float* p) { return Lanes{p[0], p[1], p[2], p[3]}; }
 Lanes splat(float v) { return Lanes{v, v, v, v}; }
 
-/// Squared distances to the eight boxes of a node.
-inline void box_distances(const PointTree::Node& node, const Eigen::Vector3f& p, float* result) {
+/// Squared distances from the box between two corners to the eight boxes of a node.
+inline void box_distances(const PointTree::Node& node, const Eigen::Vector3f& least, const Eigen::Vector3f& most,
+                          float* result) {
   for (std::size_t half = 0; half < fan; half += 4) {
     Lanes sum = splat(0);
     for (int axis = 0; axis < 3; ++axis) {
-      const Lanes at = splat(p[axis]);
-      const Lanes below = load(node.low[axis] + half) - at;
-      const Lanes above = at - load(node.high[axis] + half);
+      const Lanes below = load(node.low[axis] + half) - splat(most[axis]);
+      const Lanes above = splat(least[axis]) - load(node.high[axis] + half);
       Lanes d = below > above ? below : above;
       d = d > splat(0) ? d : splat(0);
       sum += d * d;
@@ -244,7 +244,7 @@ void PointTree::build(const std::vector<Eigen::Vector3f>& points, const Context&
 template <class Search>
 void PointTree::visit(Search& search, std::size_t level, std::size_t node) const {
   std::array<float, fan> distance;
-  box_distances(levels_[level][node], search.position, distance.data());
+  box_distances(levels_[level][node], search.position, search.position, distance.data());
   std::array<std::uint8_t, fan> queue;
   std::size_t count = 0;
   for (std::uint8_t c = 0; c < fan; ++c) {
@@ -266,6 +266,47 @@ void PointTree::visit(Search& search, std::size_t level, std::size_t node) const
     for (std::size_t i = 0; i < here; ++i)
       if (search.wanted(d[i])) search.offer({order_[child * fan + i], d[i]});
   }
+}
+
+bool PointTree::gather(const Eigen::AlignedBox3f& box, float limit, std::size_t most, std::size_t level,
+                       std::size_t node, std::vector<std::uint32_t>& result) const {
+  if (level == 0) {
+    result.push_back(static_cast<std::uint32_t>(node));
+    return result.size() <= most;
+  }
+  std::array<float, fan> distance;
+  box_distances(levels_[level][node], box.min(), box.max(), distance.data());
+  for (std::size_t c = 0; c < fan; ++c)
+    if (distance[c] <= limit && !gather(box, limit, most, level - 1, node * fan + c, result)) return false;
+  return true;
+}
+
+bool PointTree::nodes_near(const Eigen::AlignedBox3f& box, float max_distance, std::size_t most,
+                           std::vector<std::uint32_t>& result) const {
+  result.clear();
+  if (order_.empty() || !(max_distance >= 0)) return true;
+  return gather(box, square(max_distance), most, levels_.size() - 1, 0, result);
+}
+
+void PointTree::squared_distances(const Eigen::Vector3f& position, float max_distance,
+                                  const std::vector<std::uint32_t>& nodes, std::vector<float>& result) const {
+  result.resize(nodes.size() * fan * fan);
+  const float limit = square(max_distance);
+  std::size_t count = 0;
+  for (const std::size_t node : nodes) {
+    std::array<float, fan> distance;
+    box_distances(levels_[0][node], position, position, distance.data());
+    for (std::size_t c = 0; c < fan; ++c) {
+      if (!(distance[c] <= limit)) continue;
+      std::array<float, fan> d;
+      point_distances(leaves_[node * fan + c], position, d.data());
+      for (std::size_t i = 0; i < fan; ++i) {  // without branches; behind the last point they are infinite
+        result[count] = d[i];
+        count += d[i] <= limit ? 1 : 0;
+      }
+    }
+  }
+  result.resize(count);
 }
 
 bool PointTree::nearest(const Eigen::Vector3f& position, Neighbour& result, float max_distance) const {

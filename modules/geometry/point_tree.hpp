@@ -1,5 +1,5 @@
 #pragma once
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -43,7 +43,16 @@ class PointTree {
   /// All points within max_distance, in no particular (but always the same) order.
   void within(const Eigen::Vector3f& position, float max_distance, std::vector<Neighbour>& result) const;
 
+  /// For several positions in a box: the numbers of the lowest nodes with points within max_distance of it. Returns
+  /// false, with a part of them, if they are more than `most`.
+  bool nodes_near(const Eigen::AlignedBox3f& box, float max_distance, std::size_t most,
+                  std::vector<std::uint32_t>& result) const;
+  /// The squares of all distances up to max_distance to the points of these nodes, metres², in no particular order.
+  void squared_distances(const Eigen::Vector3f& position, float max_distance, const std::vector<std::uint32_t>& nodes,
+                         std::vector<float>& result) const;
+
   static constexpr std::size_t fan = 8;
+  /// Leaf l holds the points order()[fan · l] … order()[fan · l + fan - 1].
   struct Leaf {
     float x[fan], y[fan], z[fan];  // infinity behind the last point
   };
@@ -54,6 +63,8 @@ class PointTree {
  private:
   void sort(const std::vector<Eigen::Vector3f>& points, const Context& context);
   void build(const std::vector<Eigen::Vector3f>& points, const Context& context);
+  bool gather(const Eigen::AlignedBox3f& box, float limit, std::size_t most, std::size_t level, std::size_t node,
+              std::vector<std::uint32_t>& result) const;
   template <class Search>
   void visit(Search& search, std::size_t level, std::size_t node) const;
 

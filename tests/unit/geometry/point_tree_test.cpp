@@ -35,6 +35,18 @@ void expect_right(const std::vector<Eigen::Vector3f>& points, const std::vector<
       tree.k_nearest(q, k, found, reach);
       ASSERT_EQ(found, std::vector<Neighbour>(expected.begin(), expected.begin() + std::min(k, expected.size())));
     }
+    std::vector<std::uint32_t> nodes;
+    std::vector<float> squares;
+    const Eigen::AlignedBox3f around(q - Eigen::Vector3f::Ones(), q + Eigen::Vector3f::Constant(0.5F));
+    ASSERT_TRUE(tree.nodes_near(around, reach, points.size(), nodes));
+    if (!nodes.empty()) {
+      std::vector<std::uint32_t> some;
+      ASSERT_FALSE(tree.nodes_near(around, reach, nodes.size() - 1, some));
+    }
+    tree.squared_distances(q, reach, nodes, squares);
+    std::sort(squares.begin(), squares.end());
+    ASSERT_TRUE(std::equal(squares.begin(), squares.end(), expected.begin(), expected.end(),
+                           [](float square, const Neighbour& n) { return square == n.squared_distance; }));
     Neighbour nearest{};
     ASSERT_EQ(tree.nearest(q, nearest, reach), !expected.empty());
     if (!expected.empty()) {
