@@ -18,8 +18,8 @@ constexpr Colour class_colour(SurfaceClass surface) {
 
 /// A colour for the i-th primitive, room or variant: neighbours in i differ in hue and lightness; repeats after 24.
 constexpr Colour index_colour(std::size_t i) {
-  constexpr Colour base[8] = {{0, 114, 178}, {230, 159, 0},   {0, 158, 115}, {204, 121, 167},
-                              {86, 180, 233}, {213, 94, 0}, {240, 228, 66}, {120, 94, 240}};
+  constexpr Colour base[8] = {{0, 114, 178},  {230, 159, 0}, {0, 158, 115},  {204, 121, 167},
+                              {86, 180, 233}, {213, 94, 0},  {240, 228, 66}, {120, 94, 240}};
   constexpr int light[3] = {0, 35, -30};
   Colour colour = base[i % 8];
   for (auto& channel : colour) {
