@@ -85,7 +85,13 @@ std::string manifest_json(const Pipeline& pipeline, const RunResult& result, con
 }
 
 std::string unfinished_manifest(const Pipeline& pipeline, const std::string& started) {
-  return text(head(pipeline, started, "running"));
+  auto manifest = head(pipeline, started, "running");
+  manifest["planned"] = nlohmann::json::array();
+  for (const auto& node : pipeline.nodes)
+    for (std::size_t i = 0; i < node.params.size(); ++i)
+      if (node.type->params[i].kind == ParamKind::output_path)
+        manifest["planned"].push_back(std::get<std::string>(node.params[i]));
+  return text(manifest);
 }
 
 }  // namespace atrium

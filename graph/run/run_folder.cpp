@@ -84,18 +84,28 @@ void RunFolder::remove_earlier_run() {
     throw FolderError(folder_.string() + " is not empty and is not the folder of a run",
                       "choose another folder with --out, or empty it");
   const auto needed = files_read(pipeline_);
+  const auto place = [&](const std::string& listed) {
+    const fs::path relative = fs::path(listed).lexically_normal();
+    const bool inside = !relative.empty() && !relative.is_absolute() && *relative.begin() != "..";
+    return inside ? folder_ / relative : fs::path();
+  };
   std::error_code ignored;
-  const auto nodes = manifest.find("nodes");
-  for (const auto& node : nodes == manifest.end() ? nlohmann::json::array() : *nodes) {
+  const auto remove_unless_read = [&](const fs::path& file) {
+    if (fs::is_regular_file(file, ignored) && !needed.contains(fs::weakly_canonical(file))) fs::remove(file, ignored);
+  };
+  for (const auto& node : manifest.value("nodes", nlohmann::json::array()))
     for (const auto& artefact : node.value("artefacts", nlohmann::json::array())) {
-      const fs::path relative = fs::path(artefact.value("path", "")).lexically_normal();
-      if (relative.empty() || relative.is_absolute() || *relative.begin() == "..") continue;
-      const fs::path file = folder_ / relative;
-      const bool same =
-          fs::is_regular_file(file, ignored) && fs::file_size(file, ignored) == artefact.value("bytes", 0U);
-      if (same && !needed.contains(fs::weakly_canonical(file))) fs::remove(file, ignored);
+      const fs::path file = place(artefact.value("path", ""));
+      if (fs::file_size(file, ignored) == artefact.value("bytes", 0U)) remove_unless_read(file);
     }
-  }
+  // A run that was killed lists what it was going to write, and may have left unfinished files.
+  for (const auto& planned : manifest.value("planned", nlohmann::json::array()))
+    remove_unless_read(place(planned.get<std::string>()));
+  std::vector<fs::path> unfinished;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_, ignored))
+    if (entry.path().extension() == ".part" && entry.path().filename().string().front() == '.')
+      unfinished.push_back(entry.path());
+  for (const auto& file : unfinished) remove_unless_read(file);
   fs::remove(folder_ / "trace.json", ignored);
 }
 

@@ -8,7 +8,8 @@
 namespace atrium {
 
 /// The folder of one run. It is refused if it holds anything but an earlier run, whose files are removed first (those
-/// that its manifest lists and that still have the size listed, unless this pipeline reads them): what is in the folder
+/// that its manifest lists and that still have the size listed, those that it planned to write when it was killed, and
+/// unfinished ones; unless this pipeline reads them): what is in the folder
 /// afterwards is of this run. Locked against a second run at the same time.
 class RunFolder {
  public:

@@ -9,8 +9,10 @@ namespace atrium::io {
 RawGeometry read_text(const std::shared_ptr<const MappedFile>& file, const Context& context) {
   if (file->text().substr(0, 4096).find('\0') != std::string_view::npos)
     throw Error(file->path() + ": not a text file (it has zero bytes)");
-  const Lines lines(file->text(), 1, true, context);
-  const TextLayout layout = text_layout(file->path(), file->text(), lines, context);
+  std::string_view text = file->text();
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark, as spreadsheets write it
+  const Lines lines(text, 1, true, context);
+  const TextLayout layout = text_layout(file->path(), text, lines, context);
   RawGeometry geometry;
   geometry.path = file->path();
   geometry.count = lines.rows() - layout.first_row;

@@ -56,7 +56,10 @@ std::vector<Patch> PlaneSearch::run() {
 
 /// Whether a plane of `points` points would have been drawn by now: P(n, s) >= 1 - probability (Schnabel et al.,
 /// equation 2).
+/// What is too small to be told from chance on the first subset counts as soon as the smallest that can be told would
+/// have been drawn: its own draws say nothing, and waiting for them would never end.
 bool PlaneSearch::confident(double points) const {
+  points = std::max(points, coverage_.back().least_points);
   double coverage = 0;
   for (const Coverage& c : coverage_)
     if (points >= c.least_points) coverage += c.sum;

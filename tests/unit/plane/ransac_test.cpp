@@ -137,6 +137,16 @@ TEST(PlaneRansac, FindsNothingInNoise) {
   EXPECT_TRUE(find(sample(box_faces({0, 0, 0}, {5, 4, 2.5}, true), sampling)).primitives.empty());
 }
 
+TEST(PlaneRansac, EndsInALargeCloudOfSparseNoise) {
+  Sampling sampling;
+  sampling.points = 60000;
+  sampling.outliers = 1;
+  Cloud cloud = sample(box_faces({0, 0, 0}, {5, 4, 2.5}, true), sampling);
+  EXPECT_TRUE(find(cloud).primitives.empty());
+  for (auto& p : cloud.points) p *= 1000;  // millimetres taken for metres
+  EXPECT_TRUE(find(cloud).primitives.empty());
+}
+
 TEST(PlaneRansac, FindsNothingAlongALine) {
   Cloud cloud;
   for (int i = 0; i < 1000; ++i) {
