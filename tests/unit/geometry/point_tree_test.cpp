@@ -22,6 +22,20 @@ std::vector<Neighbour> brute_force(const std::vector<Eigen::Vector3f>& points, c
   return all;
 }
 
+/// One search for a box around the position holds all that the position finds.
+void expect_right_squares(const PointTree& tree, const Eigen::Vector3f& q, float reach,
+                          const std::vector<Neighbour>& expected) {
+  std::vector<std::uint32_t> nodes, some;
+  const Eigen::AlignedBox3f around(q - Eigen::Vector3f::Ones(), q + Eigen::Vector3f::Constant(0.5F));
+  ASSERT_TRUE(tree.nodes_near(around, reach, tree.size(), nodes));
+  ASSERT_TRUE(nodes.empty() || !tree.nodes_near(around, reach, nodes.size() - 1, some));
+  std::vector<float> squares;
+  tree.squared_distances(q, reach, nodes, squares);
+  std::sort(squares.begin(), squares.end());
+  ASSERT_TRUE(std::equal(squares.begin(), squares.end(), expected.begin(), expected.end(),
+                         [](float square, const Neighbour& n) { return square == n.squared_distance; }));
+}
+
 void expect_right(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& queries,
                   float reach) {
   const PointTree tree(points, Context());
@@ -35,18 +49,7 @@ void expect_right(const std::vector<Eigen::Vector3f>& points, const std::vector<
       tree.k_nearest(q, k, found, reach);
       ASSERT_EQ(found, std::vector<Neighbour>(expected.begin(), expected.begin() + std::min(k, expected.size())));
     }
-    std::vector<std::uint32_t> nodes;
-    std::vector<float> squares;
-    const Eigen::AlignedBox3f around(q - Eigen::Vector3f::Ones(), q + Eigen::Vector3f::Constant(0.5F));
-    ASSERT_TRUE(tree.nodes_near(around, reach, points.size(), nodes));
-    if (!nodes.empty()) {
-      std::vector<std::uint32_t> some;
-      ASSERT_FALSE(tree.nodes_near(around, reach, nodes.size() - 1, some));
-    }
-    tree.squared_distances(q, reach, nodes, squares);
-    std::sort(squares.begin(), squares.end());
-    ASSERT_TRUE(std::equal(squares.begin(), squares.end(), expected.begin(), expected.end(),
-                           [](float square, const Neighbour& n) { return square == n.squared_distance; }));
+    expect_right_squares(tree, q, reach, expected);
     Neighbour nearest{};
     ASSERT_EQ(tree.nearest(q, nearest, reach), !expected.empty());
     if (!expected.empty()) {
