@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <span>
 
 namespace atrium::plane {
 namespace {
@@ -22,10 +23,38 @@ double rms_distance(const Moments& moments, const Plane& plane) {
   return std::sqrt(std::max(0.0, squares) / n);
 }
 
+/// The occupied neighbours of each voxel: growing asks for them many times.
+class NeighbourLists {
+ public:
+  NeighbourLists(const VoxelGrid& grid, const Context& context)
+      : begin_(grid.voxels().size()), end_(begin_.size()), lists_((begin_.size() + chunk_size - 1) / chunk_size) {
+    context.parallel_chunks(begin_.size(), chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+      std::vector<std::uint32_t>& list = lists_[chunk];
+      for (std::size_t v = begin; v < end; ++v) {
+        begin_[v] = static_cast<std::uint32_t>(list.size());
+        grid.visit_neighbours(static_cast<std::uint32_t>(v), [&](std::uint32_t other) { list.push_back(other); });
+        end_[v] = static_cast<std::uint32_t>(list.size());
+      }
+    });
+  }
+  std::span<const std::uint32_t> operator[](std::uint32_t voxel) const {
+    return {lists_[voxel / chunk_size].data() + begin_[voxel], end_[voxel] - begin_[voxel]};
+  }
+
+ private:
+  static constexpr std::size_t chunk_size = 2048;
+  std::vector<std::uint32_t> begin_, end_;         ///< per voxel, in its chunk's list
+  std::vector<std::vector<std::uint32_t>> lists_;  ///< per chunk of voxels
+};
+
 class Growth {
  public:
   Growth(const VoxelGrid& grid, const GrowthLimits& limits, const Context& context)
-      : grid_(grid), limits_(limits), context_(context), region_of_(grid.voxels().size(), no_region) {}
+      : grid_(grid),
+        neighbours_(grid, context),
+        limits_(limits),
+        context_(context),
+        region_of_(grid.voxels().size(), no_region) {}
 
   std::vector<Region> run() {
     for (const std::uint32_t seed : seeds()) {
@@ -100,14 +129,14 @@ class Growth {
     const std::vector<Voxel>& voxels = grid_.voxels();
     std::size_t next_fit = std::max<std::size_t>(4, region.voxels.size() + region.voxels.size() / 2);
     for (std::size_t k = 0; k < region.voxels.size(); ++k) {
-      grid_.visit_neighbours(region.voxels[k], [&](std::uint32_t v) {
-        if (region_of_[v] == number) return;
+      for (const std::uint32_t v : neighbours_[region.voxels[k]]) {
+        if (region_of_[v] == number) continue;
         if (region_of_[v] == no_region && fits(voxels[v], region.plane)) {
           take(region, v, number);
         } else {
           region.border.push_back(v);
         }
-      });
+      }
       if (region.voxels.size() < next_fit) continue;
       region.plane = fit(region.moments);
       next_fit = region.voxels.size() + region.voxels.size() / 2;
@@ -167,6 +196,7 @@ class Growth {
   }
 
   const VoxelGrid& grid_;
+  NeighbourLists neighbours_;
   GrowthLimits limits_;
   const Context& context_;
   std::vector<std::uint32_t> region_of_;

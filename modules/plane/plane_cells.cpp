@@ -32,7 +32,10 @@ class PlaneCells::Neighbours {
   }
 
  private:
-  static std::size_t place(std::int32_t u, std::int32_t v) { return static_cast<std::size_t>(3 * u + v + 4); }
+  static std::size_t place(std::int32_t u, std::int32_t v) {
+    const std::int32_t number = 3 * (u + 1) + v + 1;
+    return static_cast<std::size_t>(number);
+  }
   std::array<std::uint32_t, 9> tiles_{};
 };
 
@@ -57,8 +60,7 @@ class PlaneCells::Forest {
 // All points of a cell are within reach of each other.
 PlaneCells::PlaneCells(const Eigen::Vector3d& normal, double reach) : frame_(normal, reach / std::sqrt(2.0)) {}
 
-std::uint32_t PlaneCells::add(const Eigen::Vector3f& p) {
-  const Eigen::Vector2f at = frame_.position(p);
+std::uint32_t PlaneCells::add(const Eigen::Vector2f& at) {
   const CellFrame::Index i = CellFrame::index(at);
   const std::uint32_t cell = insert(i);
   const auto part = [](float t, std::int32_t whole) {

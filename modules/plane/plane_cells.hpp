@@ -19,7 +19,10 @@ class PlaneCells {
   PlaneCells(const Eigen::Vector3d& normal, double reach);
 
   /// The number of the point's cell, made if it is new. Numbers count up from 0.
-  std::uint32_t add(const Eigen::Vector3f& p);
+  std::uint32_t add(const Eigen::Vector3f& p) { return add(position(p)); }
+  std::uint32_t add(const Eigen::Vector2f& at);
+  /// In the plane, in cells.
+  Eigen::Vector2f position(const Eigen::Vector3f& p) const { return frame_.position(p); }
   std::size_t size() const { return indices_.size(); }
   CellFrame::Index index(std::uint32_t cell) const { return indices_[cell]; }
 

@@ -30,9 +30,13 @@ CellSet keep_largest_component(Support& support, const RandomSubsets& subsets, c
   std::vector<std::vector<std::uint32_t>> cell_of(support.size());
   std::vector<std::size_t> points;
   for (std::size_t k = 0; k < support.size(); ++k) {
+    std::vector<Eigen::Vector2f> positions(support[k].size());
+    context.parallel_for(positions.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t j = begin; j < end; ++j) positions[j] = cells.position(subsets[k].columns.point(support[k][j]));
+    });
     cell_of[k].reserve(support[k].size());
-    for (const std::uint32_t i : support[k]) {
-      const std::uint32_t cell = cells.add(subsets[k].columns.point(i));
+    for (const Eigen::Vector2f& at : positions) {
+      const std::uint32_t cell = cells.add(at);
       if (cell == points.size()) points.push_back(0);
       ++points[cell];
       cell_of[k].push_back(cell);

@@ -123,7 +123,11 @@ RandomSubsets::RandomSubsets(const MortonOrder& order, const std::vector<std::in
   const std::size_t total = owner.size();
   std::size_t free = 0;
   const auto is_free = [&](std::size_t i) { return owner[i] < 0 && order.columns.is_live(i); };
-  for (std::size_t i = 0; i < total; ++i) free += is_free(i) ? 1 : 0;
+  std::vector<std::size_t> counts((total + chunk_size - 1) / chunk_size, 0);
+  context.parallel_chunks(total, chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) counts[chunk] += is_free(i) ? 1 : 0;
+  });
+  for (const std::size_t count : counts) free += count;
   const std::vector<double> shares = subset_shares(static_cast<double>(free));
 
   Division division = divide(total, shares, seed, is_free, context);

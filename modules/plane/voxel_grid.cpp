@@ -17,28 +17,40 @@ std::uint32_t gather_bits(std::uint64_t v) {
   return static_cast<std::uint32_t>((v | v >> 32U) & 0x1fffffULL);
 }
 
+/// Where codes begin that differ from the ones before above the lowest `shift` bits.
+std::vector<std::uint32_t> run_starts(const std::vector<std::uint64_t>& codes, std::uint32_t shift,
+                                      const Context& context) {
+  constexpr std::size_t size = 65536;
+  std::vector<std::vector<std::uint32_t>> found((codes.size() + size - 1) / size);
+  context.parallel_chunks(codes.size(), size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (i == 0 || (codes[i] ^ codes[i - 1]) >> shift != 0) found[chunk].push_back(static_cast<std::uint32_t>(i));
+  });
+  std::vector<std::uint32_t> starts;
+  for (const auto& part : found) starts.insert(starts.end(), part.begin(), part.end());
+  return starts;
+}
+
 }  // namespace
 
 VoxelGrid::VoxelGrid(const MortonOrder& order, double cell, std::uint32_t level, const std::vector<std::int32_t>& owner,
                      const Planarity& planarity, const Context& context)
     : edge_(cell * std::pow(2.0, level)), centre_(1 << (20 - static_cast<std::int32_t>(level))) {
   const std::uint32_t shift = 3 * level;
-  for (std::uint32_t i = 0; i < order.codes.size(); ++i) {
-    const std::uint64_t code = order.codes[i] >> shift;
-    if (i == 0 || code != order.codes[i - 1] >> shift) {
-      if (i > 0) voxels_.back().end = i;
-      Voxel voxel;
-      voxel.index = {static_cast<std::int32_t>(gather_bits(code)), static_cast<std::int32_t>(gather_bits(code >> 1U)),
-                     static_cast<std::int32_t>(gather_bits(code >> 2U))};
-      voxel.begin = i;
-      voxels_.push_back(voxel);
-    }
-  }
-  if (!voxels_.empty()) voxels_.back().end = static_cast<std::uint32_t>(order.codes.size());
+  const std::vector<std::uint32_t> starts = run_starts(order.codes, shift, context);
+  voxels_.resize(starts.size());
   context.parallel_for(
       voxels_.size(),
       [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) measure(voxels_[i], order, owner, planarity);
+        for (std::size_t i = begin; i < end; ++i) {
+          Voxel& voxel = voxels_[i];
+          voxel.begin = starts[i];
+          voxel.end = i + 1 < starts.size() ? starts[i + 1] : static_cast<std::uint32_t>(order.codes.size());
+          const std::uint64_t code = order.codes[voxel.begin] >> shift;
+          for (unsigned axis = 0; axis < 3; ++axis)
+            voxel.index[axis] = static_cast<std::int32_t>(gather_bits(code >> axis));
+          measure(voxel, order, owner, planarity);
+        }
       },
       chunk_size);
   hash();
