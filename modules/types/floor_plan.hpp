@@ -1,0 +1,68 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "modules/types/plane_primitives.hpp"
+
+namespace atrium {
+
+using PlanRing = std::vector<Eigen::Vector2d>;  ///< a closed polygon, first corner not repeated
+
+/// A polygon of the plan: the outline counter-clockwise, holes clockwise.
+struct PlanPolygon {
+  static constexpr auto members() { return std::tuple{&PlanPolygon::outline, &PlanPolygon::holes}; }
+  PlanRing outline;
+  std::vector<PlanRing> holes;
+
+  double area() const;  ///< without the holes, square metres
+};
+
+/// A straight piece of wall seen from above. Where both of its faces were seen it has a thickness and `outline` is the
+/// space between them; where only one was, thickness is 0, `outline` is empty and the line is that face.
+struct PlanWall {
+  static constexpr auto members() {
+    return std::tuple{&PlanWall::from, &PlanWall::to, &PlanWall::thickness, &PlanWall::outline, &PlanWall::primitives};
+  }
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< the middle line (thickness > 0) or the seen face
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();
+  double thickness = 0;  ///< metres
+  PlanRing outline;
+  std::vector<std::int32_t> primitives;  ///< that it was made from
+};
+
+struct PlanRoom {
+  static constexpr auto members() { return std::tuple{&PlanRoom::name, &PlanRoom::polygon, &PlanRoom::height}; }
+  std::string name;
+  PlanPolygon polygon;  ///< of its floor
+  double height = 0;    ///< floor to ceiling, metres; 0: not known
+};
+
+struct PlanStorey {
+  static constexpr auto members() {
+    return std::tuple{&PlanStorey::index,  &PlanStorey::elevation, &PlanStorey::height, &PlanStorey::walls,
+                      &PlanStorey::floors, &PlanStorey::ceilings,  &PlanStorey::rooms};
+  }
+  std::int32_t index = 0;  ///< 0 is the lowest
+  double elevation = 0;    ///< of the floor, metres, relative to origin
+  double height = 0;       ///< floor to ceiling, metres; 0: not known
+  std::vector<PlanWall> walls;
+  std::vector<PlanPolygon> floors;
+  std::vector<PlanPolygon> ceilings;
+  std::vector<PlanRoom> rooms;
+};
+
+/// Floor plans, one per storey, lowest first. Metres; a place is origin + (x, y), in the input's frame if its z points
+/// up, else in that frame turned upright about `origin` by the least rotation.
+struct FloorPlan {
+  static constexpr std::string_view port_type = "FloorPlan";
+  static constexpr auto members() { return std::tuple{&FloorPlan::origin, &FloorPlan::to_plan, &FloorPlan::storeys}; }
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Transform to_plan;  ///< from the input's frame; the identity if its z points up
+  std::vector<PlanStorey> storeys;
+};
+
+}  // namespace atrium
