@@ -87,7 +87,8 @@ void add_check(CLI::App& app, int& exit_code) {
 }
 
 void add_settings(CLI::App& verb, std::vector<std::string>& settings) {
-  verb.add_option("-s,--set", settings, "NODE.PARAMETER=VALUE, NODE.type=TYPE or VARIABLE=VALUE; may be repeated")
+  verb.add_option("-s,--set", settings,
+                  "NODE.PARAMETER=VALUE, NODE.type=TYPE, NODE.pipeline=FILE or VARIABLE=VALUE; may be repeated")
       ->expected(1)
       ->take_all()
       ->allow_extra_args(false);

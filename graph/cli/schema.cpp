@@ -104,6 +104,10 @@ Json schema_of(const std::vector<const NodeType*>& types) {
   const Json value{{"anyOf", Json::array({scalar, Json{{"type", "array"}, {"items", scalar}}})}};
   const Json unset_or_value{{"anyOf", Json::array({value, Json{{"type", "null"}}})}};
   definitions["variable"] = {{"type", "string"}, {"pattern", "^\\$\\{[a-z][a-z0-9_]*\\}$"}};
+  definitions["input"] = {{"type", "object"},
+                          {"properties", {{"type", {{"type", "string"}}}, {"default", {{"$ref", "#/$defs/port"}}}}},
+                          {"required", {"type"}},
+                          {"additionalProperties", false}};
   definitions["port"] = {{"type", "string"}, {"pattern", port_pattern}};
   for (const auto* type : types) {
     names.push_back(type->type);
@@ -137,7 +141,7 @@ Json schema_of(const std::vector<const NodeType*>& types) {
             {"seed", {{"type", "integer"}, {"minimum", 0}}},
             {"versions", {{"type", "object"}}},
             {"vars", named(unset_or_value)},
-            {"inputs", named({{"type", "string"}})},
+            {"inputs", named({{"anyOf", Json::array({Json{{"type", "string"}}, Json{{"$ref", "#/$defs/input"}}})}})},
             {"nodes",
              {{"type", "object"},
               {"patternProperties", {{node_pattern, node}}},

@@ -24,8 +24,8 @@ class Reader {
     if (const auto* entry = root.find("summary")) document_.summary = scalar(*entry).text;
     if (const auto* entry = root.find("seed")) read_seed(*entry);
     read_variables(root.find("vars"));
-    read_pairs(root.find("inputs"), "inputs", document_.inputs, true);
-    read_pairs(root.find("versions"), "versions", document_.versions, false);
+    read_inputs(root.find("inputs"));
+    read_versions(root.find("versions"));
     read_nodes(root);
     read_outputs(root.find("outputs"));
     check_variables();
@@ -102,16 +102,41 @@ class Reader {
     }
   }
 
-  void read_pairs(const YamlNode::Entry* section, const std::string& name,
-                  std::vector<std::pair<Located, Located>>& pairs, bool names) {
+  void read_versions(const YamlNode::Entry* section) {
     for (const auto& entry : mapping(section)) {
-      if (names && !check_name(entry, "an input")) continue;
       if (entry.value.is_scalar())
-        pairs.emplace_back(Located{entry.key, entry.place}, Located{entry.value.text, entry.value.place});
+        document_.versions.emplace_back(Located{entry.key, entry.place}, Located{entry.value.text, entry.value.place});
       else
-        error(entry.value.place, fmt::format("'{}' in {} must be a single value", entry.key, name),
-              names ? "write the type of the port, as in `cloud: Cloud`" : "");
+        error(entry.value.place, fmt::format("'{}' in versions must be a single value", entry.key));
     }
+  }
+
+  void read_inputs(const YamlNode::Entry* section) {
+    for (const auto& entry : mapping(section)) {
+      if (!check_name(entry, "an input")) continue;
+      if (entry.value.is_scalar()) {
+        document_.inputs.push_back({{entry.key, entry.place}, {entry.value.text, entry.value.place}, std::nullopt});
+      } else if (entry.value.is_mapping()) {
+        read_input_with_default(entry);
+      } else {
+        error(entry.value.place, fmt::format("the input '{}' must name a type", entry.key),
+              "write the type of the port, as in `cloud: Cloud` or `cloud: {type: Cloud, default: scan.cloud}`");
+      }
+    }
+  }
+
+  void read_input_with_default(const YamlNode::Entry& entry) {
+    check_keys(entry.value, {"type", "default"}, fmt::format("the input '{}'", entry.key));
+    const auto* type = entry.value.find("type");
+    const auto* standard = entry.value.find("default");
+    if (type == nullptr) {
+      error(entry.place, fmt::format("the input '{}' has no type", entry.key), "as in `type: Cloud`");
+      return;
+    }
+    DocumentInput input{{entry.key, entry.place}, scalar(*type), std::nullopt};
+    if (standard != nullptr)
+      if (const Located text = scalar(*standard); text.place.line > 0) input.standard = reference(standard->value);
+    document_.inputs.push_back(std::move(input));
   }
 
   void read_nodes(const YamlNode& root) {

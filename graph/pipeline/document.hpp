@@ -47,6 +47,13 @@ struct DocumentNode {
   std::vector<Setting> variables;  ///< of a sub-pipeline
 };
 
+/// `name: Type` or `name: {type: Type, default: node.port}` under inputs: what a sub-pipeline takes from outside. With
+/// a default it may be left unwired, and a file whose inputs all have one runs on its own.
+struct DocumentInput {
+  Located name, type;
+  std::optional<Reference> standard;  ///< its default
+};
+
 struct DocumentOutput {
   Located name;
   Reference source;
@@ -59,7 +66,7 @@ struct Document {
   std::string summary;
   std::uint64_t seed = 1;
   std::vector<Setting> variables;
-  std::vector<std::pair<Located, Located>> inputs;  ///< name and port type of a sub-pipeline's inputs
+  std::vector<DocumentInput> inputs;
   std::vector<DocumentNode> nodes;
   std::vector<DocumentOutput> outputs;
   std::vector<std::pair<Located, Located>> versions;  ///< node type (or "atrium") and version; resolved files have them

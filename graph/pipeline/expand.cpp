@@ -15,7 +15,37 @@ std::vector<std::string> names_of(const std::vector<Setting>& settings) {
   return words_of(settings, [](const Setting& setting) { return setting.name.text; });
 }
 
+/// The scope's place as settings name it: "" or "shell".
+std::string address_of(const Scope& scope) {
+  return scope.prefix.empty() ? "" : scope.prefix.substr(0, scope.prefix.size() - 1);
+}
+
+/// Whether a node that is not left out uses the variable.
+bool is_needed(const Scope& scope, const std::string& variable) {
+  const auto names = [&](const Setting& setting) {
+    return std::any_of(setting.value.items.begin(), setting.value.items.end(),
+                       [&](const std::string& item) { return variable_of(item) == variable; });
+  };
+  return std::any_of(scope.document->nodes.begin(), scope.document->nodes.end(), [&](const DocumentNode& node) {
+    return !scope.dormant.contains(node.id.text) && (std::any_of(node.params.begin(), node.params.end(), names) ||
+                                                     std::any_of(node.variables.begin(), node.variables.end(), names));
+  });
+}
+
+/// Calls look(reference) for everything that a node of a document reads.
+template <class Look>
+void for_each_source(const DocumentNode& node, Look look) {
+  for (const auto& wiring : node.inputs)
+    for (const auto& source : wiring.sources) look(source);
+}
+
 }  // namespace
+
+bool is_wired(const Scope& scope, const std::string& input) {
+  if (scope.node == nullptr) return false;
+  const auto& wirings = scope.node->inputs;
+  return std::any_of(wirings.begin(), wirings.end(), [&](const Wiring& w) { return w.port.text == input; });
+}
 
 SettledValue settle(const Setting& setting, const Scope& scope, const SourceFile& from, const Where& where,
                     Findings& findings, std::vector<std::string> notes) {
@@ -64,21 +94,53 @@ void Expander::expand(const Document& root) {
   report_unknown_nodes();
 }
 
+/// A node sleeps if a default that is not used reads it, or another sleeping node, and nothing else does.
+std::unordered_set<std::string> Expander::dormant_nodes(const Scope& scope) {
+  const Document& document = *scope.document;
+  std::unordered_set<std::string> dormant;
+  for (const auto& input : document.inputs)
+    if (input.standard && is_wired(scope, input.name.text)) dormant.insert(input.standard->node);
+  if (dormant.empty()) return dormant;
+  const auto grow = [&] {
+    const std::size_t before = dormant.size();
+    for (const auto& node : document.nodes)
+      if (dormant.contains(node.id.text)) for_each_source(node, [&](const Reference& r) { dormant.insert(r.node); });
+    return dormant.size() != before;
+  };
+  while (grow()) {
+  }
+  const auto shrink = [&] {  // what is read by others is awake
+    const std::size_t before = dormant.size();
+    for (const auto& output : document.outputs) dormant.erase(output.source.node);
+    for (const auto& input : document.inputs)
+      if (input.standard && !is_wired(scope, input.name.text)) dormant.erase(input.standard->node);
+    for (const auto& node : document.nodes)
+      if (!dormant.contains(node.id.text)) for_each_source(node, [&](const Reference& r) { dormant.erase(r.node); });
+    return dormant.size() != before;
+  };
+  while (shrink()) {
+  }
+  return dormant;
+}
+
 void Expander::fill(Scope& scope) {
+  scope.dormant = dormant_nodes(scope);
   settle_variables(scope);
   for (const auto& node : scope.document->nodes) {
     if (expansion_.nodes.size() > most_nodes) return;
-    if (scope.members.contains(node.id.text)) continue;
-    if (node.pipeline.text.empty())
+    if (scope.members.contains(node.id.text) || scope.dormant.contains(node.id.text)) continue;
+    if (const ParsedOverride* swap = overrides_.take(scope.prefix + node.id.text, "pipeline"); swap != nullptr)
+      open_pipeline(scope, swapped(node, *swap), {swap->note});
+    else if (node.pipeline.text.empty())
       add_node(scope, node);
     else
-      open_pipeline(scope, node);
+      open_pipeline(scope, node, {});
   }
 }
 
 void Expander::settle_variables(Scope& scope) {
   const Scope& root = expansion_.scopes.front();
-  const std::string address = scope.prefix.empty() ? "" : scope.prefix.substr(0, scope.prefix.size() - 1);
+  const std::string address = address_of(scope);
   check_given_variables(scope);
   for (const auto& variable : scope.document->variables) {
     const std::string& name = variable.name.text;
@@ -88,11 +150,13 @@ void Expander::settle_variables(Scope& scope) {
         if (setting.name.text == name) given = &setting;
     SettledValue value;
     if (const ParsedOverride* set = overrides_.take(address, name); set != nullptr) {
-      value = settle(set->setting, root, overrides_.source(), scope.at(variable.place), findings_, {set->note});
+      value = settle(set->setting, root, *set->source, scope.at(variable.place), findings_, {set->note});
     } else if (given != nullptr) {
       const Where place = scope.parent->at(given->place);
       value = settle(*given, *scope.parent, scope.parent->document->source, place, findings_,
                      {fmt::format("'{}' is set by {}", name, to_string(place))});
+    } else if (variable.unset && scope.node != nullptr && !is_needed(scope, name)) {
+      value.missing.push_back(name);
     } else {
       const Where place = scope.at(variable.place);
       value = settle(variable, scope, scope.document->source, place, findings_,
@@ -120,15 +184,22 @@ void Expander::check_given_variables(const Scope& scope) {
   if (scope.node != nullptr)
     for (const auto& setting : scope.node->variables) {
       if (known(setting.name.text)) continue;
+      if (const auto* swap = overrides_.find(address_of(scope), "pipeline"); swap != nullptr) {
+        findings_.warning(scope.parent->at(setting.name.place),
+                          fmt::format("the variable '{}' is ignored: {} has none of that name", setting.name.text,
+                                      scope.document->source.name),
+                          {}, {swap->note});
+        continue;
+      }
       const std::string hint = findings_.suggest(setting.name.text, names);
       findings_.error(scope.parent->at(setting.name.place),
                       fmt::format("{} has no variable '{}'", scope.document->source.name, setting.name.text),
                       hint.empty() && !names.empty() ? "its variables: " + join_words(names) : hint);
     }
-  const std::string address = scope.prefix.empty() ? "" : scope.prefix.substr(0, scope.prefix.size() - 1);
-  for (const auto* set : overrides_.of(address)) {
+  for (const auto* set : overrides_.of(address_of(scope))) {
     const bool outermost = scope.node == nullptr;
-    if (known(set->name) || set->name == (outermost ? "seed" : "type")) continue;
+    if (known(set->name) || set->name == (outermost ? "seed" : "type") || (!outermost && set->name == "pipeline"))
+      continue;
     std::vector<std::string> candidates = names;
     if (outermost) candidates.emplace_back("seed");
     std::string hint = findings_.suggest(set->name, candidates);
@@ -170,7 +241,18 @@ void Expander::add_node(Scope& scope, const DocumentNode& node) {
     findings_.error(scope.at(node.id.place), fmt::format("the pipeline has more than {} nodes", most_nodes));
 }
 
-void Expander::open_pipeline(Scope& scope, const DocumentNode& node) {
+/// The node as a sub-pipeline of the file that the command line names, its wiring kept.
+const DocumentNode& Expander::swapped(const DocumentNode& node, const ParsedOverride& swap) {
+  DocumentNode& result = expansion_.swapped.emplace_back(node);
+  const auto& items = swap.setting.value.items;
+  result.type = {};
+  result.params.clear();
+  result.pipeline = {items.empty() ? "" : (swap.source->folder / items.front()).lexically_normal().string(),
+                     node.id.place};
+  return result;
+}
+
+void Expander::open_pipeline(Scope& scope, const DocumentNode& node, const std::vector<std::string>& notes) {
   const std::string path = scope.prefix + node.id.text;
   Member member;
   for (const auto* set : overrides_.of(path)) {
@@ -179,7 +261,7 @@ void Expander::open_pipeline(Scope& scope, const DocumentNode& node) {
                     fmt::format("its nodes have: {}/NODE.type=TYPE", path), {set->note});
     overrides_.take(path, "type");
   }
-  if (const Document* document = document_of(scope, node); document != nullptr) {
+  if (const Document* document = document_of(scope, node, notes); document != nullptr) {
     Scope& inner = expansion_.scopes.emplace_back();
     inner.document = document;
     inner.parent = &scope;
@@ -192,7 +274,8 @@ void Expander::open_pipeline(Scope& scope, const DocumentNode& node) {
 }
 
 /// The sub-pipeline's file, read once; null when it cannot be opened or would open itself.
-const Document* Expander::document_of(const Scope& scope, const DocumentNode& node) {
+const Document* Expander::document_of(const Scope& scope, const DocumentNode& node,
+                                      const std::vector<std::string>& notes) {
   const std::filesystem::path path = (scope.document->source.folder / node.pipeline.text).lexically_normal();
   const std::string name = (std::filesystem::path(scope.document->source.name).parent_path() / node.pipeline.text)
                                .lexically_normal()
@@ -204,7 +287,7 @@ const Document* Expander::document_of(const Scope& scope, const DocumentNode& no
   const std::string& identity = known->second;
   if (identity.empty()) {
     findings_.error(scope.at(node.pipeline.place), fmt::format("no such pipeline file: {}", name),
-                    "the path is relative to the file that it stands in");
+                    notes.empty() ? "the path is relative to the file that it stands in" : "", notes);
     return nullptr;
   }
   if (opens_itself(scope, node, identity, name)) return nullptr;
@@ -260,9 +343,9 @@ void Expander::report_unknown_type(const Where& where, const std::string& type, 
 void Expander::report_unknown_nodes() {
   const Document& root = *expansion_.scopes.front().document;
   std::vector<std::string> paths;
-  for (const auto& node : expansion_.nodes) paths.push_back(node.path);
   for (const auto& scope : expansion_.scopes)
-    if (!scope.prefix.empty()) paths.push_back(scope.prefix.substr(0, scope.prefix.size() - 1));
+    for (const auto& node : scope.document->nodes)
+      if (!scope.dormant.contains(node.id.text)) paths.push_back(scope.prefix + node.id.text);
   for (const auto& set : overrides_.all()) {
     if (set.node.empty() || std::find(paths.begin(), paths.end(), set.node) != paths.end()) continue;
     const std::string hint = findings_.suggest(set.node, paths);

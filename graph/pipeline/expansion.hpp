@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "graph/pipeline/document.hpp"
@@ -37,7 +38,8 @@ struct Scope {
   std::string prefix;                  ///< "" or "shell/"
   std::unordered_map<std::string, SettledValue> variables;
   std::unordered_map<std::string, Member> members;
-  bool used = false;  ///< something reads one of its outputs
+  std::unordered_set<std::string> dormant;  ///< nodes that only the defaults of wired inputs need: left out
+  bool used = false;                        ///< something reads one of its outputs
 
   Where at(Place place) const { return {&document->source, place}; }
 };
@@ -65,7 +67,8 @@ struct FlatNode {
 /// The pipeline with its sub-pipelines opened, before and while it is checked.
 struct Expansion {
   std::vector<std::unique_ptr<Document>> documents;
-  std::deque<Scope> scopes;  ///< the outermost first
+  std::deque<Scope> scopes;          ///< the outermost first
+  std::deque<DocumentNode> swapped;  ///< nodes that a setting made sub-pipelines of another file
   std::vector<FlatNode> nodes;
   std::vector<std::string> missing_variables;  ///< of the outermost file, without a value
   std::vector<PipelineOutput> outputs;
@@ -80,10 +83,12 @@ class Expander {
 
  private:
   void fill(Scope& scope);
+  static std::unordered_set<std::string> dormant_nodes(const Scope& scope);
   void settle_variables(Scope& scope);
   void add_node(Scope& scope, const DocumentNode& node);
-  void open_pipeline(Scope& scope, const DocumentNode& node);
-  const Document* document_of(const Scope& scope, const DocumentNode& node);
+  const DocumentNode& swapped(const DocumentNode& node, const ParsedOverride& swap);
+  void open_pipeline(Scope& scope, const DocumentNode& node, const std::vector<std::string>& notes);
+  const Document* document_of(const Scope& scope, const DocumentNode& node, const std::vector<std::string>& notes);
   bool opens_itself(const Scope& scope, const DocumentNode& node, const std::string& identity, const std::string& name);
   void check_given_variables(const Scope& scope);
   void report_unknown_type(const Where& where, const std::string& type, std::vector<std::string> notes);
@@ -97,6 +102,9 @@ class Expander {
   std::unordered_map<std::string, const Document*> by_identity_;  ///< null: it could not be read
   std::vector<std::string> all_types_, modules_;
 };
+
+/// Whether the scope's own input is wired from outside.
+bool is_wired(const Scope& scope, const std::string& input);
 
 /// Replaces variables and escapes in a value that stands in `scope`. `from` is what relative paths in it are relative
 /// to, `where` and `notes` are for what is wrong with it.

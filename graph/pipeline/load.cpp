@@ -77,11 +77,13 @@ void read_seed(const Document& root, Overrides& overrides, Findings& findings, P
 
 void check_complete(const Document& root, const Expansion& expansion, LoadOptions options, LoadResult& result,
                     Findings& findings) {
-  for (const auto& [name, type] : root.inputs) result.missing.push_back("inputs." + name.text);
+  const auto open = std::find_if(root.inputs.begin(), root.inputs.end(), [](const auto& i) { return !i.standard; });
+  for (const auto& input : root.inputs)
+    if (!input.standard) result.missing.push_back("inputs." + input.name.text);
   for (const auto& name : expansion.missing_variables) result.missing.push_back(name);
   if (options.allow_missing) return;
-  if (!root.inputs.empty())
-    findings.error({&root.source, root.inputs.front().first.place}, "a pipeline with inputs cannot run on its own",
+  if (open != root.inputs.end())
+    findings.error({&root.source, open->name.place}, "a pipeline with inputs cannot run on its own",
                    "use it in another file: `{pipeline: FILE, in: {…}}`");
   for (const auto& variable : root.variables)
     if (std::find(result.missing.begin(), result.missing.end(), variable.name.text) != result.missing.end())

@@ -5,10 +5,16 @@
 namespace atrium {
 
 Overrides::Overrides(const std::vector<Override>& given, const SourceFile& root, Findings& findings) {
-  std::error_code ignored;
-  source_ = {"command line", std::filesystem::current_path(ignored), 0};
   overrides_.reserve(given.size());  // by_node_ points into it
   for (const auto& item : given) add(item, root, findings);
+}
+
+const SourceFile* Overrides::source_of(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  const auto place = folder.empty() ? std::filesystem::current_path(ignored) : folder;
+  for (const auto& source : sources_)
+    if (source.folder == place) return &source;
+  return &sources_.emplace_back(SourceFile{"command line", place, 0});
 }
 
 void Overrides::add(const Override& given, const SourceFile& root, Findings& findings) {
@@ -18,7 +24,8 @@ void Overrides::add(const Override& given, const SourceFile& root, Findings& fin
   };
   const std::size_t equals = given.text.find('=');
   if (equals == std::string::npos || equals == 0) {
-    fail(fmt::format("'{}' sets nothing", given.text), "write NODE.PARAMETER=VALUE, NODE.type=TYPE or VARIABLE=VALUE");
+    fail(fmt::format("'{}' sets nothing", given.text),
+         "write NODE.PARAMETER=VALUE, NODE.type=TYPE, NODE.pipeline=FILE or VARIABLE=VALUE");
     return;
   }
   const std::string target = given.text.substr(0, equals), value = given.text.substr(equals + 1);
@@ -27,6 +34,7 @@ void Overrides::add(const Override& given, const SourceFile& root, Findings& fin
   if (dot != std::string::npos) parsed.node = target.substr(0, dot);
   parsed.name = dot == std::string::npos ? target : target.substr(dot + 1);
   parsed.note = "set by " + origin;
+  parsed.source = source_of(given.folder);
   YamlNode node;
   node.kind = YamlNode::Kind::scalar;
   node.text = value;
@@ -60,6 +68,12 @@ const std::vector<ParsedOverride*>& Overrides::of(const std::string& node) const
   static const std::vector<ParsedOverride*> none;
   const auto found = by_node_.find(node);
   return found == by_node_.end() ? none : found->second;
+}
+
+const ParsedOverride* Overrides::find(const std::string& node, const std::string& name) const {
+  for (const auto* item : of(node))
+    if (item->name == name) return item;
+  return nullptr;
 }
 
 ParsedOverride* Overrides::take(const std::string& node, const std::string& name) {

@@ -48,10 +48,11 @@ struct Diagnostic {
 };
 std::string to_string(const Diagnostic& diagnostic);
 
-/// One `-s` of the command line: NODE.PARAM=VALUE, NODE.type=TYPE or VARIABLE=VALUE.
+/// One `-s` of the command line: NODE.PARAM=VALUE, NODE.type=TYPE, NODE.pipeline=FILE or VARIABLE=VALUE.
 struct Override {
-  std::string text;    ///< as given, without -s
-  std::string origin;  ///< what notes name: "-s planes.distance=1cm"
+  std::string text;              ///< as given, without -s
+  std::string origin;            ///< what notes name: "-s planes.distance=1cm"
+  std::filesystem::path folder;  ///< what relative paths in it are relative to; empty: the working folder
 };
 
 struct LoadResult {

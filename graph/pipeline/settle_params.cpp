@@ -120,7 +120,7 @@ class ParamReader {
         continue;
       }
       apply(index,
-            settle(override_->setting, expansion_.scopes.front(), overrides_.source(), where, findings_,
+            settle(override_->setting, expansion_.scopes.front(), *override_->source, where, findings_,
                    {override_->note}),
             where);
       set[index] = true;

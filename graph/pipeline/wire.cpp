@@ -42,6 +42,7 @@ class Wirer {
     for (auto& node : expansion_.nodes) wire_node(node);
     for (auto& scope : expansion_.scopes) {
       if (scope.node != nullptr) check_pipeline_inputs(scope);
+      check_defaults(scope);
       export_outputs(scope);
     }
   }
@@ -138,9 +139,13 @@ class Wirer {
     for (std::size_t step = 0; step < limit; ++step) {
       const bool loud = report && step == 0;
       if (reference->node == "inputs") {
-        const Located* type = input_type(*scope, *reference, loud);
-        if (type == nullptr) return result;
-        if (result.type.empty()) result.type = type->text;
+        const DocumentInput* input = declared_input(*scope, *reference, loud);
+        if (input == nullptr) return result;
+        if (result.type.empty()) result.type = input->type.text;
+        if (input->standard && !is_wired(*scope, reference->port)) {
+          reference = &*input->standard;
+          continue;
+        }
         if (scope->parent == nullptr) {
           result.kind = Endpoint::Kind::outside;
           return result;
@@ -219,12 +224,12 @@ class Wirer {
     findings_.error(scope.at(reference.place), fmt::format("unknown node '{}'", reference.node), std::move(help));
   }
 
-  /// The declared type of an input of a sub-pipeline.
-  const Located* input_type(const Scope& scope, const Reference& reference, bool loud) {
+  /// An input of a sub-pipeline as its file declares it.
+  const DocumentInput* declared_input(const Scope& scope, const Reference& reference, bool loud) {
     std::vector<std::string> names;
-    for (const auto& [name, type] : scope.document->inputs) {
-      if (name.text == reference.port) return &type;
-      names.push_back(name.text);
+    for (const auto& input : scope.document->inputs) {
+      if (input.name.text == reference.port) return &input;
+      names.push_back(input.name.text);
     }
     if (!loud) return nullptr;
     const std::string hint = findings_.suggest(reference.port, names);
@@ -241,6 +246,20 @@ class Wirer {
     return nullptr;
   }
 
+  /// The default of an input must have the type that the input is declared with. Where the input is wired, the default
+  /// is not looked at.
+  void check_defaults(const Scope& scope) {
+    for (const auto& input : scope.document->inputs) {
+      if (!input.standard || is_wired(scope, input.name.text)) continue;
+      const Endpoint from = resolve(scope, *input.standard, true);
+      if (from.kind != Endpoint::Kind::unknown && from.type != input.type.text)
+        findings_.error(scope.at(input.standard->place),
+                        fmt::format("'{}' is {}, but the input '{}' is declared as {}", text_of(*input.standard),
+                                    from.type, input.name.text, input.type.text),
+                        {}, from.notes);
+    }
+  }
+
   const Reference* pipeline_output(const Scope& scope, const Scope& inner, const Reference& reference, bool loud) {
     std::vector<std::string> names;
     for (const auto& output : inner.document->outputs) {
@@ -255,7 +274,7 @@ class Wirer {
 
   void check_pipeline_inputs(const Scope& scope) {
     const auto& declared = scope.document->inputs;
-    const auto names = words_of(declared, [](const auto& input) { return input.first.text; });
+    const auto names = words_of(declared, [](const auto& input) { return input.name.text; });
     for (const auto& wiring : scope.node->inputs) {
       const auto place = std::find(names.begin(), names.end(), wiring.port.text);
       if (place == names.end()) {
@@ -270,16 +289,15 @@ class Wirer {
       for (const auto& source : wiring.sources) {
         Endpoint from = resolve(*scope.parent, source, true);
         if (place == names.end() || from.kind == Endpoint::Kind::unknown) continue;
-        const Located& wanted = declared[static_cast<std::size_t>(place - names.begin())].second;
+        const Located& wanted = declared[static_cast<std::size_t>(place - names.begin())].type;
         if (from.type != wanted.text)
           report_type(scope.parent->at(source.place), source, from.type,
                       fmt::format("'{}' of '{}'", wiring.port.text, scope.node->id.text), wanted.text,
                       std::move(from.notes));
       }
     }
-    for (const auto& [name, type] : declared) {
-      const auto same = [&, &text = name.text](const Wiring& wiring) { return wiring.port.text == text; };
-      if (std::none_of(scope.node->inputs.begin(), scope.node->inputs.end(), same))
+    for (const auto& [name, type, standard] : declared) {
+      if (!standard && !is_wired(scope, name.text))
         findings_.error(scope.parent->at(scope.node->id.place),
                         fmt::format("the input '{}' of '{}' ({}) is not wired", name.text, scope.node->id.text,
                                     scope.document->source.name),
@@ -307,7 +325,7 @@ class Wirer {
   }
 
   void check_inputs_used(const Scope& scope) {
-    for (const auto& [name, type] : scope.document->inputs) {
+    for (const auto& [name, type, standard] : scope.document->inputs) {
       const auto reads = [&, &text = name.text](const Reference& r) { return r.node == "inputs" && r.port == text; };
       bool used = false;
       for (const auto& node : scope.document->nodes)

@@ -322,6 +322,57 @@ TEST_F(PipelineFile, WithAnyBytesNeverBreaksTheLoader) {
   }
 }
 
+constexpr const char* with_default = R"(atrium: 1
+vars: {scan: }
+inputs: {cloud: {type: Cloud, default: scan.cloud}}
+nodes:
+  scan: {type: test.read, params: {path: "${scan}"}}
+  planes: {type: test.find, in: {cloud: inputs.cloud}}
+outputs: {planes: planes.planes}
+)";
+
+TEST_F(PipelineFile, AnInputWithADefaultLetsTheFileRunOnItsOwn) {
+  folder.write("sub.yaml", with_default);
+  const LoadResult alone = load(folder.path() / "sub.yaml", {"scan=" + (folder.path() / "sub.yaml").string()});
+  ASSERT_TRUE(alone.errors.empty()) << messages(alone);
+  ASSERT_EQ(alone.pipeline.nodes.size(), 2U);
+  EXPECT_EQ(alone.pipeline.nodes[1].inputs[0][0].node, 0U);
+  EXPECT_FALSE(load(folder.path() / "sub.yaml").errors.empty());  // scan has no value
+}
+
+TEST_F(PipelineFile, TheDefaultOfAWiredInputIsLeftOut) {
+  folder.write("sub.yaml", with_default);
+  const LoadResult loaded = load(folder.write("p.yaml", R"(atrium: 1
+nodes:
+  cloud: {type: test.make}
+  sub: {pipeline: sub.yaml, in: {cloud: cloud.cloud}}
+outputs: {planes: sub.planes}
+)"));
+  ASSERT_TRUE(loaded.errors.empty()) << messages(loaded);
+  ASSERT_EQ(loaded.pipeline.nodes.size(), 2U);
+  EXPECT_EQ(loaded.pipeline.nodes[0].path, "cloud");
+  EXPECT_EQ(loaded.pipeline.nodes[1].path, "sub/planes");
+}
+
+TEST_F(PipelineFile, ANodeIsSwappedForASubPipeline) {
+  const auto sub = folder.write("sub.yaml", with_default);
+  const auto file = folder.write("p.yaml", R"(atrium: 1
+nodes:
+  cloud: {type: test.make}
+  found: {type: test.find, in: {cloud: cloud.cloud}, params: {distance: 3 cm}}
+outputs: {planes: found.planes}
+)");
+  const LoadResult loaded = load(file, {"found.pipeline=" + sub.string(), "found/planes.distance=4 cm"});
+  ASSERT_TRUE(loaded.errors.empty()) << messages(loaded);
+  ASSERT_EQ(loaded.pipeline.nodes.size(), 2U);
+  EXPECT_EQ(loaded.pipeline.nodes[1].path, "found/planes");
+  // Relative paths of a setting are meant from its own folder.
+  Registry registry(std::vector<std::filesystem::path>{});
+  test::add_test_nodes(registry);
+  const LoadResult again = load_pipeline(file, {{"found.pipeline=sub.yaml", "here", folder.path()}}, registry);
+  EXPECT_TRUE(again.errors.empty()) << messages(again);
+}
+
 TEST_F(PipelineFile, TakesAnyTextAsASettingWithoutBreaking) {
   Random random(2);
   const std::string alphabet = "planes.distance=${}[]\"' /1cm\xff\n&*";
