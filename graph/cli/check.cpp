@@ -70,7 +70,7 @@ void add_check(CLI::App& app, int& exit_code) {
   auto* verb =
       app.add_subcommand("check", "Checks a pipeline file: every mistake with its place, before anything runs.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("FILE", options->file, "the pipeline file")->required();
+  verb->add_option("FILE", options->file, "the pipeline file, or a picture that a run has made (PNG)")->required();
   add_settings(*verb, options->settings);
   verb->add_flag("--json", options->json, "findings as JSON on stdout");
   verb->callback([options, &exit_code] {

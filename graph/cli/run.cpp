@@ -88,7 +88,7 @@ void add_run(CLI::App& app, int& exit_code) {
   auto* verb =
       app.add_subcommand("run", "Runs a pipeline: results on stdout, files and a record of the run in a folder.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("FILE", options->file, "the pipeline file")->required();
+  verb->add_option("FILE", options->file, "the pipeline file, or a picture that a run has made (PNG)")->required();
   add_settings(*verb, options->settings);
   verb->add_option("--out", options->out, "the run's folder (default: runs/NAME-TIME)");
   verb->add_option("-j,--threads", options->threads, "threads; 1: one node after the other (default: one per core)")

@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "graph/api/suggest.hpp"
+#include "graph/pipeline/png_stamp.hpp"
 
 namespace atrium {
 namespace {
@@ -288,8 +289,19 @@ std::unique_ptr<Document> read_document(const std::filesystem::path& path, std::
   auto document = std::make_unique<Document>();
   std::error_code ignored;
   document->identity = std::filesystem::weakly_canonical(path, ignored).string();
-  document->source = {std::move(name), path.parent_path(), order};
-  const YamlTree tree = read_yaml(path.string());
+  document->source = {std::move(name), path.parent_path(), order, is_png(path)};
+  YamlTree tree;
+  if (document->source.picture) {
+    try {
+      tree = parse_yaml(read_png_stamp(path).resolved);
+    } catch (const Error& error) {
+      findings.error({&document->source, {}}, error.what(), error.help());
+      return nullptr;
+    }
+    document->source.folder = std::filesystem::current_path(ignored);
+  } else {
+    tree = read_yaml(path.string());
+  }
   for (const auto& problem : tree.problems)
     findings.error({&document->source, problem.place}, problem.message, problem.help);
   if (!tree.root) return nullptr;

@@ -72,7 +72,8 @@ struct Document {
   std::vector<std::pair<Located, Located>> versions;  ///< node type (or "atrium") and version; resolved files have them
 };
 
-/// Reads a file and checks its shape. Null when there is nothing that could be checked further (unreadable, no YAML, no
+/// Reads a file and checks its shape; of a PNG file the pipeline that made it (relative paths in it are meant from the
+/// working folder). Null when there is nothing that could be checked further (unreadable, no YAML, no
 /// mapping); everything wrong is in `findings`, which refer to `source`'s name.
 std::unique_ptr<Document> read_document(const std::filesystem::path& path, std::string name, std::size_t order,
                                         Findings& findings);

@@ -13,6 +13,7 @@ struct SourceFile {
   std::string name;              ///< "pipelines/paper.yaml"
   std::filesystem::path folder;  ///< absolute
   std::size_t order = 0;         ///< findings are sorted by it
+  bool picture = false;          ///< the file is a picture that holds the pipeline
 };
 
 /// A place in a file.

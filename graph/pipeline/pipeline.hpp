@@ -70,7 +70,8 @@ struct LoadOptions {
 
 class Registry;
 
-/// Reads and checks a pipeline file: everything before anything runs.
+/// Reads and checks a pipeline file, or the picture of a run (PNG, which holds the pipeline that made it): everything
+/// before anything runs.
 LoadResult load_pipeline(const std::filesystem::path& file, const std::vector<Override>& overrides, Registry& registry,
                          LoadOptions options = {});
 
@@ -78,7 +79,7 @@ LoadResult load_pipeline(const std::filesystem::path& file, const std::vector<Ov
 std::string_view framework_version();
 
 /// The pipeline as a file that gives the same bytes when it is run: every default, the seed, absolute paths, no
-/// variables, no sub-pipelines (ids with '/' stay addresses).
-std::string resolved_yaml(const Pipeline& pipeline);
+/// variables, no sub-pipelines (ids with '/' stay addresses). With a folder, the paths within it are relative to it.
+std::string resolved_yaml(const Pipeline& pipeline, const std::filesystem::path& folder = {});
 
 }  // namespace atrium

@@ -171,10 +171,14 @@ class ParamReader {
     for (const auto& entry : std::filesystem::directory_iterator(full.parent_path(), ignored))
       if (siblings.size() < 1000) siblings.push_back(entry.path().filename().string());
     std::sort(siblings.begin(), siblings.end());
+    std::vector<std::string> all = origin;
+    if (base.picture)
+      all.push_back(fmt::format("a picture names files as seen from the folder of its run; -s {}.{}=FILE names another",
+                                node_->path, info.name));
     findings_.error(where, fmt::format("no such file: {}", full.string()),
                     folder ? findings_.suggest(full.filename().string(), siblings)
                            : fmt::format("there is no folder {}", full.parent_path().string()),
-                    origin);
+                    std::move(all));
   }
 
   void output_path(std::string& path, const ParamInfo& info, const Where& where,

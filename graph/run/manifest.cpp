@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/api/plugin.hpp"
+#include "graph/pipeline/png_stamp.hpp"
 
 namespace atrium {
 namespace {
@@ -14,8 +15,13 @@ using Json = nlohmann::ordered_json;
 double rounded(double seconds) { return std::round(seconds * 1e6) / 1e6; }
 
 Json head(const Pipeline& pipeline, const std::string& started, std::string_view status) {
-  return {{"atrium", ATRIUM_VERSION},           {"build", ATRIUM_STAMP}, {"status", status},
-          {"pipeline", pipeline.file.string()}, {"started", started},    {"seed", pipeline.seed}};
+  return {{"atrium", ATRIUM_VERSION},
+          {"build", ATRIUM_STAMP},
+          {"status", status},
+          {"pipeline", pipeline.file.string()},
+          {"run", stamp_of(pipeline).run},
+          {"started", started},
+          {"seed", pipeline.seed}};
 }
 
 Json outputs_of(const NodeRecord& node) {

@@ -28,6 +28,7 @@ void NodeHost::log(Level level, std::string_view text) {
 }
 
 void NodeHost::wrote(const std::filesystem::path& file) {
+  if (is_png(file)) stamp_png(file, stamp_);
   const std::lock_guard lock(mutex_);
   files_.push_back(file);
 }

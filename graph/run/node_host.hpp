@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "graph/pipeline/png_stamp.hpp"
 #include "graph/run/runner.hpp"
 
 namespace atrium {
@@ -13,8 +14,8 @@ namespace atrium {
 class NodeHost final : public ContextHost {
  public:
   NodeHost(const std::string& node, const std::filesystem::path& folder, const std::atomic<bool>* cancel,
-           ProgressSink& progress)
-      : node_(node), folder_(folder), cancel_(cancel), progress_(progress) {}
+           const PngStamp& stamp, ProgressSink& progress)
+      : node_(node), folder_(folder), cancel_(cancel), stamp_(stamp), progress_(progress) {}
 
   void log(Level level, std::string_view text) override;
   void progress(double share) override { progress_.progress(node_, share); }
@@ -30,6 +31,7 @@ class NodeHost final : public ContextHost {
   const std::string& node_;
   const std::filesystem::path& folder_;
   const std::atomic<bool>* cancel_;
+  const PngStamp& stamp_;  ///< goes into every picture that the node writes
   ProgressSink& progress_;
   std::mutex mutex_;
   std::vector<std::string> warnings_;

@@ -30,6 +30,7 @@ Scheduler::Scheduler(const Pipeline& pipeline, const RunOptions& options, Progre
       options_(options),
       progress_(progress),
       plan_(make_plan(pipeline)),
+      picture_stamp_(stamp_of(pipeline)),
       values_(pipeline.nodes.size()),
       blocked_(pipeline.nodes.size(), 0),
       blocker_(pipeline.nodes.size(), pipeline.nodes.size()) {
@@ -113,7 +114,7 @@ void Scheduler::execute(std::size_t n) {
 bool Scheduler::call(std::size_t n, const Inputs& inputs, std::vector<Value>& outputs) {
   const PipelineNode& node = pipeline_.nodes[n];
   NodeRecord& record = result_.nodes[n];
-  const auto host = std::make_shared<NodeHost>(record.node, options_.out, options_.cancel, progress_);
+  const auto host = std::make_shared<NodeHost>(record.node, options_.out, options_.cancel, picture_stamp_, progress_);
   Context context(node_seed(pipeline_.seed, node.path), host);
   record.thread = tbb::this_task_arena::current_thread_index();
   record.start = wall_seconds() - start_;

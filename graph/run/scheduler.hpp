@@ -5,6 +5,7 @@
 #include <queue>
 #include <vector>
 
+#include "graph/pipeline/png_stamp.hpp"
 #include "graph/run/plan.hpp"
 #include "graph/run/runner.hpp"
 
@@ -48,6 +49,7 @@ class Scheduler {
   const RunOptions& options_;
   ProgressSink& progress_;
   Plan plan_;
+  PngStamp picture_stamp_;
   double start_ = 0;
   std::atomic<std::uint64_t> peak_memory_ = 0;
   std::function<void(std::size_t)> spawn_;  ///< lets so many threads of the run call step()
