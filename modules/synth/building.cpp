@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "graph/api/error.hpp"
-#include "modules/synth/triangulate.hpp"
+#include "modules/geometry/triangulate.hpp"
 
 namespace atrium::synth {
 namespace {

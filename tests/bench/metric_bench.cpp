@@ -3,6 +3,7 @@
 #include "modules/metric/distance.hpp"
 #include "modules/metric/faces.hpp"
 #include "modules/metric/structure.hpp"
+#include "modules/metric/validity.hpp"
 #include "modules/synth/flat.hpp"
 #include "modules/synth/scan.hpp"
 
@@ -70,6 +71,17 @@ void faces(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(metric::Faces::run({c.detailed}, {}, context));
 }
 
+// Everything that reflects in the flat, cut into about as many triangles as asked for.
+void validity(benchmark::State& state) {
+  Context context;
+  const auto scene = synth::Flat::run({}, {}, context).scene;
+  Mesh mesh = detailed_mesh(scene, static_cast<std::size_t>(state.range(0)));
+  mesh.triangles.resize(static_cast<std::size_t>(state.range(0)));
+  const auto cut = input(std::move(mesh));
+  for (auto _ : state) benchmark::DoNotOptimize(metric::Validity::run({cut}, {}, context));
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+}
+
 }  // namespace
 
 #define SIZES \
@@ -78,3 +90,10 @@ BENCHMARK_CAPTURE(distance, structure, &Case::structure)->SIZES;
 BENCHMARK_CAPTURE(distance, detailed, &Case::detailed)->SIZES;
 BENCHMARK(structure)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
 BENCHMARK(faces)->Unit(benchmark::kMillisecond);
+BENCHMARK(validity)
+    ->Arg(100000)
+    ->Arg(500000)
+    ->Arg(1000000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime();

@@ -1,9 +1,9 @@
-#include "modules/synth/triangulate.hpp"
+#include "modules/geometry/triangulate.hpp"
 
 #include <algorithm>
 #include <map>
 
-namespace atrium::synth {
+namespace atrium {
 namespace {
 
 struct Edge {
@@ -92,4 +92,4 @@ PlaneTriangles triangulate(const std::vector<std::vector<Eigen::Vector2d>>& ring
   return result;
 }
 
-}  // namespace atrium::synth
+}  // namespace atrium

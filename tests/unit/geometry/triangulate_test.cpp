@@ -1,10 +1,10 @@
-#include "modules/synth/triangulate.hpp"
+#include "modules/geometry/triangulate.hpp"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
-namespace atrium::synth {
+namespace atrium {
 namespace {
 
 using Ring = std::vector<Eigen::Vector2d>;
@@ -48,4 +48,4 @@ TEST(Triangulate, ConvexConcaveHolesAndSlants) {
 }
 
 }  // namespace
-}  // namespace atrium::synth
+}  // namespace atrium

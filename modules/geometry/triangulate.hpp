@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace atrium::synth {
+namespace atrium {
 
 struct PlaneTriangles {
   std::vector<Eigen::Vector2d> points;
@@ -16,4 +16,4 @@ struct PlaneTriangles {
 /// `rings`: simple, disjoint, in any order and direction; what is inside an odd number of rings is kept.
 PlaneTriangles triangulate(const std::vector<std::vector<Eigen::Vector2d>>& rings);
 
-}  // namespace atrium::synth
+}  // namespace atrium
