@@ -2,6 +2,7 @@
 #include <string>
 
 #include "graph/api/context.hpp"
+#include "modules/io/face_images.hpp"
 #include "modules/types/mesh.hpp"
 
 namespace atrium::io {
@@ -22,6 +23,9 @@ void write_ply(const Mesh& mesh, bool binary, AtomicFile& file);
 void write_obj(const Mesh& mesh, const std::string& material_file, AtomicFile& file);
 /// The text of the material file that write_obj names.
 std::string obj_materials();
+
+/// GLB (glTF 2.0 in one file); see WriteMesh for its form. Errors: more than 2 GiB.
+void write_glb(const Mesh& mesh, const FaceImages& images, AtomicFile& file);
 
 /// Furthest coordinate that a binary STL file may have, metres: float32 resolves half a millimetre there.
 inline constexpr double stl_limit = 8192.0;

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "modules/io/palette.hpp"
+#include "modules/io/surface_classes.hpp"
 
 namespace atrium::io {
 

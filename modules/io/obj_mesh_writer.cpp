@@ -6,7 +6,7 @@
 #include "modules/io/byte_buffer.hpp"
 #include "modules/io/mesh_writers.hpp"
 #include "modules/io/obj_groups.hpp"
-#include "modules/io/palette.hpp"
+#include "modules/io/surface_classes.hpp"
 
 namespace atrium::io {
 namespace {
@@ -60,7 +60,7 @@ void write_obj(const Mesh& mesh, const std::string& material_file, AtomicFile& f
 std::string obj_materials() {
   std::string text = "# Atrium: one material for each class of surface\n";
   for (const SurfaceClass c : all_classes) {
-    const Colour colour = colour_of(c);
+    const Colour colour = class_colour(c);
     text += fmt::format("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\nillum 1\n", name_of(c), colour[0] / 255.0,
                         colour[1] / 255.0, colour[2] / 255.0);
   }

@@ -4,7 +4,7 @@
 
 #include "modules/io/byte_buffer.hpp"
 #include "modules/io/mesh_writers.hpp"
-#include "modules/io/palette.hpp"
+#include "modules/io/surface_classes.hpp"
 
 namespace atrium::io {
 namespace {
@@ -41,7 +41,7 @@ void write_binary(const Mesh& mesh, ByteBuffer& out) {
     out.number(mesh.triangles[t]);
     if (!mesh.classes.empty()) {
       out.number(static_cast<std::uint8_t>(mesh.classes[t]));
-      out.number(colour_of(mesh.classes[t]));
+      out.number(class_colour(mesh.classes[t]));
     }
     if (!mesh.storeys.empty()) out.number(mesh.storeys[t]);
     if (!mesh.primitives.empty()) out.number(mesh.primitives[t]);
@@ -60,7 +60,7 @@ void write_text(const Mesh& mesh, ByteBuffer& out) {
     const auto& [a, b, c] = mesh.triangles[t];
     out.text(fmt::format("3 {} {} {}", a, b, c));
     if (!mesh.classes.empty()) {
-      const Colour colour = colour_of(mesh.classes[t]);
+      const Colour colour = class_colour(mesh.classes[t]);
       out.text(fmt::format(" {} {} {} {}", static_cast<int>(mesh.classes[t]), colour[0], colour[1], colour[2]));
     }
     if (!mesh.storeys.empty()) out.text(fmt::format(" {}", mesh.storeys[t]));

@@ -1,34 +1,50 @@
 #pragma once
 #include "graph/api/node.hpp"
 #include "modules/types/mesh.hpp"
+#include "modules/types/textures.hpp"
 
 namespace atrium::io {
 
-/// Writes a mesh in true coordinates (its origin added), in the format that the path's extension names.
+/// Writes a mesh in the format that the path's extension names. All formats but .glb have true coordinates (the mesh's
+/// origin added).
 ///
 /// .ply keeps everything: double coordinates, vertex colours, and per face `class` (0 object, 1 wall, 2 floor, 3
 /// ceiling), `storey` and `primitive`, with the class's colour so that any viewer shows it. .obj keeps classes and
 /// primitives as groups ("g wall_12") with a material of the class's colour in a .mtl file beside it. .stl keeps
 /// triangles only; its binary form has float32, so a mesh further than 8192 m from zero is refused there.
 ///
+/// .glb (glTF 2.0) is for viewers and modelling programs: metres, y up (x, y, z of the mesh's frame stand as x, z, −y),
+/// a named node and mesh per class and storey ("wall, storey 0"; "object"), in it a glTF primitive per source primitive
+/// with `extras` class, storey and primitive, and a material per class in the class's colour. Faces of a plane have its
+/// normal; all else has none, which glTF draws flat. Colours of vertices are written where they say more than the
+/// class. Structure is seen from its front only, so that one looks into the rooms from outside; objects from both
+/// sides. As glTF has float32, coordinates beyond a kilometre are shifted: `extras.origin` of the asset and of the
+/// scene says by how much; true coordinates are x = origin[0] + X, y = origin[1] − Z, z = origin[2] + Y. Faces that
+/// `textures` have an image for show it instead of the class's colour: unlit (KHR_materials_unlit), as PNG in the same
+/// file.
+///
 /// An empty mesh gives a valid file without faces, and a warning. Errors: unknown extension, a mesh with coordinates
-/// that are not finite, a folder that cannot be written; then no file is there.
+/// that are not finite, a texture without size, a .glb above 2 GiB, a folder that cannot be written; then no file is
+/// there.
 struct WriteMesh {
   static constexpr std::string_view type = "io.write_mesh";
   static constexpr std::string_view summary = "Writes a mesh with its classes to a file.";
   struct In {
     Input<Mesh> mesh;
+    OptionalInput<Textures> textures;
   };
   struct Out {};
   struct Params {
     OutputPath path{"mesh.ply"};
     bool binary = true;
   };
-  static constexpr auto inputs = std::tuple{port(&In::mesh, "mesh", "What to write.")};
+  static constexpr auto inputs = std::tuple{port(&In::mesh, "mesh", "What to write."),
+                                            port(&In::textures, "textures", "Images of its faces, for .glb.")};
   static constexpr auto outputs = std::tuple{};
-  static constexpr auto params = std::tuple{
-      param(&Params::path, "path", "The file, in the run's folder; its extension is the format: .ply, .obj, .stl."),
-      param(&Params::binary, "binary", "Binary where the format has both kinds (.ply, .stl); else text.")};
+  static constexpr auto params =
+      std::tuple{param(&Params::path, "path",
+                       "The file, in the run's folder; its extension is the format: .ply, .obj, .stl, .glb."),
+                 param(&Params::binary, "binary", "Binary where the format has both kinds (.ply, .stl); else text.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -9,8 +9,8 @@
 namespace atrium::test {
 namespace {
 
-const std::vector<std::string> results{"structure.ply", "objects.ply", "scene.ply", "scene_without_ceiling.ply",
-                                       "planes.vg",     "metrics.json"};
+const std::vector<std::string> results{"structure.ply", "objects.ply",  "scene.ply", "scene_without_ceiling.ply",
+                                       "planes.vg",     "metrics.json", "scene.glb"};
 
 std::string simulate(const TemporaryFolder& scratch, const std::vector<std::string>& settings) {
   const auto run = run_pipeline_file("simulate.yaml", settings, scratch / "scan");

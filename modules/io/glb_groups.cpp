@@ -1,0 +1,95 @@
+#include "modules/io/glb_groups.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace atrium::io {
+
+std::vector<GlbGroup> glb_groups(const Mesh& mesh) {
+  std::map<std::tuple<SurfaceClass, std::int32_t, std::int32_t>, GlbGroup> groups;
+  GlbGroup* last = nullptr;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const SurfaceClass surface = mesh.classes.empty() ? SurfaceClass::object : mesh.classes[t];
+    const std::int32_t storey = mesh.storeys.empty() ? -1 : std::max(mesh.storeys[t], -1);
+    const std::int32_t primitive = mesh.primitives.empty() ? -1 : std::max(mesh.primitives[t], -1);
+    if (last == nullptr || last->surface != surface || last->storey != storey || last->primitive != primitive) {
+      last = &groups[{surface, storey, primitive}];
+      last->surface = surface;
+      last->storey = storey;
+      last->primitive = primitive;
+    }
+    last->triangles.push_back(t);
+  }
+  std::vector<GlbGroup> result;
+  for (auto& [key, group] : groups) result.push_back(std::move(group));
+  return result;
+}
+
+std::optional<Eigen::Vector3d> common_normal(const Mesh& mesh, const GlbGroup& group) {
+  constexpr double most = 1e-3;  // of a triangle's normal against the common one, as a sine
+  if (group.surface == SurfaceClass::object || group.primitive < 0) return {};
+  const auto area = [&](std::uint32_t t) -> Eigen::Vector3d {
+    const auto& [a, b, c] = mesh.triangles[t];
+    return (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+  };
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto t : group.triangles) sum += area(t);
+  if (!(sum.norm() > 0)) return {};
+  const Eigen::Vector3d normal = sum.normalized();
+  for (const auto t : group.triangles) {
+    const Eigen::Vector3d own = area(t);
+    if (own.dot(normal) < 0 || own.cross(normal).norm() > most * own.norm()) return {};
+  }
+  return normal;
+}
+
+GroupCorners::Used GroupCorners::gather(const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  Used used;
+  used.corners.reserve(triangles.size() * 3);
+  for (const auto t : triangles)
+    for (const auto v : mesh.triangles[t]) {
+      if (numbers_[v] == none) {
+        numbers_[v] = static_cast<std::uint32_t>(used.vertices.size());
+        used.vertices.push_back(v);
+      }
+      used.corners.push_back(numbers_[v]);
+    }
+  for (const auto v : used.vertices) numbers_[v] = none;
+  return used;
+}
+
+Eigen::Vector3d glb_offset(const Mesh& mesh) {
+  constexpr double near = 1000;  // metres
+  Eigen::AlignedBox3d box;
+  for (const auto& v : mesh.vertices) box.extend(v);
+  if (box.isEmpty()) return Eigen::Vector3d::Zero();
+  const auto within = [&](const Eigen::Vector3d& shift) {
+    return (box.min() + shift).cwiseAbs().maxCoeff() <= near && (box.max() + shift).cwiseAbs().maxCoeff() <= near;
+  };
+  if (within(mesh.origin)) return Eigen::Vector3d::Zero();
+  if (within(Eigen::Vector3d::Zero())) return mesh.origin;
+  return (mesh.origin + box.center()).array().round();
+}
+
+std::array<double, 3> linear(const Colour& colour) {
+  std::array<double, 3> result{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double s = colour[i] / 255.0;  // IEC 61966-2-1
+    result[i] = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+  }
+  return result;
+}
+
+std::array<std::uint16_t, 4> linear16(const Colour& colour) {
+  static const auto table = [] {
+    std::array<std::uint16_t, 256> levels{};
+    for (std::size_t i = 0; i < 256; ++i)
+      levels[i] = static_cast<std::uint16_t>(std::lround(linear({static_cast<std::uint8_t>(i), 0, 0})[0] * 65535));
+    return levels;
+  }();
+  return {table[colour[0]], table[colour[1]], table[colour[2]], 65535};
+}
+
+}  // namespace atrium::io
