@@ -22,15 +22,16 @@ struct PlanPolygon {
 };
 
 /// A straight piece of wall seen from above. Where both of its faces were seen it has a thickness and `outline` is the
-/// space between them; where only one was, thickness is 0, `outline` is empty and the line is that face.
+/// space between them; where only one was, thickness is 0, `outline` is empty and the line is that face, seen from the
+/// left of from → to.
 struct PlanWall {
   static constexpr auto members() {
     return std::tuple{&PlanWall::from, &PlanWall::to, &PlanWall::thickness, &PlanWall::outline, &PlanWall::primitives};
   }
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< the middle line (thickness > 0) or the seen face
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
-  double thickness = 0;  ///< metres
-  PlanRing outline;
+  double thickness = 0;                  ///< metres
+  PlanRing outline;                      ///< counter-clockwise; reaches into the walls that it meets at its ends
   std::vector<std::int32_t> primitives;  ///< that it was made from
 };
 
@@ -43,13 +44,14 @@ struct PlanRoom {
 
 struct PlanStorey {
   static constexpr auto members() {
-    return std::tuple{&PlanStorey::index,  &PlanStorey::elevation, &PlanStorey::height, &PlanStorey::walls,
-                      &PlanStorey::floors, &PlanStorey::ceilings,  &PlanStorey::rooms};
+    return std::tuple{&PlanStorey::index,  &PlanStorey::elevation, &PlanStorey::height,   &PlanStorey::walls,
+                      &PlanStorey::bodies, &PlanStorey::floors,    &PlanStorey::ceilings, &PlanStorey::rooms};
   }
   std::int32_t index = 0;  ///< 0 is the lowest
   double elevation = 0;    ///< of the floor, metres, relative to origin
   double height = 0;       ///< floor to ceiling, metres; 0: not known
   std::vector<PlanWall> walls;
+  std::vector<PlanPolygon> bodies;  ///< what the walls of known thickness cover, joined at corners and junctions
   std::vector<PlanPolygon> floors;
   std::vector<PlanPolygon> ceilings;
   std::vector<PlanRoom> rooms;

@@ -1,0 +1,25 @@
+#pragma once
+#include <vector>
+
+#include "modules/floorplan/regions.hpp"
+#include "modules/floorplan/wall_faces.hpp"
+
+namespace atrium::floorplan {
+
+struct RoomLimits {
+  double max_opening = 1.25;
+  double min_width = 0.40;
+  double min_area = 1.0;
+};
+
+/// Rooms of a storey: the connected parts of `floor` between the walls, largest first, without names and heights.
+///
+/// Besides the walls, what one face leaves open (a door) divides rooms if it is at most max_opening wide; so does any
+/// passage below min_width. Parts below min_area, or nowhere min_width wide, are none.
+std::vector<PlanRoom> rooms_of(const Region& floor, const PlanStorey& storey, const std::vector<WallFace>& faces,
+                               const RoomLimits& limits);
+
+/// Height of a room over `elevation`: the median by area of the ceilings above it; 0 if there is none.
+double height_of(const PlanRoom& room, const std::vector<Surface>& ceilings, double elevation);
+
+}  // namespace atrium::floorplan

@@ -1,0 +1,95 @@
+#include "modules/floorplan/write_geojson.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace atrium::floorplan {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// To a whole 1/scale, so that the shortest decimal has no more digits.
+double rounded(double value, double scale) { return std::round(value * scale) / scale; }
+Json known(double value) { return value > 0 ? Json(rounded(value, 1e4)) : Json(); }
+
+class Features {
+ public:
+  explicit Features(const FloorPlan& plan) : plan_(plan) {}
+
+  void add(const Json& properties, const PlanPolygon& polygon) {
+    Json rings = Json::array({ring(polygon.outline)});
+    for (const auto& hole : polygon.holes) rings.push_back(ring(hole));
+    add(properties, "Polygon", std::move(rings));
+  }
+  void add(const Json& properties, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    add(properties, "LineString", Json::array({place(from), place(to)}));
+  }
+  Json take() { return std::move(features_); }
+
+ private:
+  Json place(const Eigen::Vector2d& p) const {
+    return Json::array({rounded(plan_.origin.x() + p.x(), 1e4), rounded(plan_.origin.y() + p.y(), 1e4)});
+  }
+  Json ring(const PlanRing& corners) const {
+    Json result = Json::array();
+    for (const auto& p : corners) result.push_back(place(p));
+    result.push_back(place(corners.front()));
+    return result;
+  }
+  void add(const Json& properties, const char* type, Json coordinates) {
+    features_.push_back({{"type", "Feature"},
+                         {"properties", properties},
+                         {"geometry", {{"type", type}, {"coordinates", std::move(coordinates)}}}});
+  }
+  const FloorPlan& plan_;
+  Json features_ = Json::array();
+};
+
+void add_storey(Features& features, const PlanStorey& storey, double origin_z) {
+  const double elevation = rounded(origin_z + storey.elevation, 1e4);
+  for (const auto& room : storey.rooms)
+    features.add({{"class", "room"},
+                  {"storey", storey.index},
+                  {"name", room.name},
+                  {"area_m2", rounded(room.polygon.area(), 1e4)},
+                  {"height_m", known(room.height)},
+                  {"elevation_m", elevation}},
+                 room.polygon);
+  for (const auto& wall : storey.walls) {
+    const Json properties{{"class", "wall"},
+                          {"storey", storey.index},
+                          {"thickness_m", known(wall.thickness)},
+                          {"length_m", rounded((wall.to - wall.from).norm(), 1e4)}};
+    if (wall.outline.empty())
+      features.add(properties, wall.from, wall.to);
+    else
+      features.add(properties, PlanPolygon{wall.outline, {}});
+  }
+  const auto add_all = [&](const char* name, const std::vector<PlanPolygon>& polygons) {
+    for (const auto& polygon : polygons)
+      features.add({{"class", name}, {"storey", storey.index}, {"area_m2", rounded(polygon.area(), 1e4)}}, polygon);
+  };
+  add_all("floor", storey.floors);
+  add_all("ceiling", storey.ceilings);
+}
+
+}  // namespace
+
+WriteGeojson::Out WriteGeojson::run(const In& in, const Params& params, Context& context) {
+  Features features(*in.plan);
+  for (const auto& storey : in.plan->storeys) add_storey(features, storey, in.plan->origin.z());
+  if (in.plan->storeys.empty()) context.warn("the plan is empty: " + params.path.path + " has no features");
+  Json root{{"type", "FeatureCollection"},
+            {"name", params.crs.empty() ? "floor plan (local coordinates, not WGS 84)" : "floor plan"},
+            {"coordinates", "metres in the frame of the scan: x, y"}};
+  if (!params.crs.empty()) root["crs"] = {{"type", "name"}, {"properties", {{"name", params.crs}}}};
+  root["features"] = features.take();
+  const auto path = context.output(params.path.path);
+  AtomicFile file(path);
+  file.write(root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  file.commit();
+  context.wrote(path);
+  return {};
+}
+
+}  // namespace atrium::floorplan

@@ -1,0 +1,39 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/floor_plan.hpp"
+
+namespace atrium::floorplan {
+
+/// Writes a floor plan as GeoJSON (RFC 7946), for geographic information systems: one FeatureCollection of all storeys.
+///
+/// Features, each with the properties `class` and `storey`: "room" (Polygon; name, area_m2, height_m, elevation_m),
+/// "wall" (Polygon between two faces, thickness_m, length_m; LineString where only one face is known, thickness_m
+/// null), "floor" and "ceiling" (Polygon; area_m2). Outer rings run counter-clockwise, holes clockwise, the first
+/// corner is repeated at the end. Coordinates are metres in the frame of the plan, rounded to a tenth of a millimetre,
+/// with their true offsets (easting and northing of a georeferenced scan). RFC 7946 expects longitude and latitude in
+/// WGS 84: these are not, unless `crs` names their system (in the member "crs" of GeoJSON 2008, which most programs
+/// still read); the collection's "name" and "coordinates" say so too. Where a height is not known it is null.
+///
+/// A plan without storeys gives an empty collection, and a warning. Errors: a folder that cannot be written; then no
+/// file is there.
+struct WriteGeojson {
+  static constexpr std::string_view type = "floorplan.write_geojson";
+  static constexpr std::string_view summary = "Writes a floor plan as GeoJSON: rooms, walls, floors, ceilings.";
+  struct In {
+    Input<FloorPlan> plan;
+  };
+  struct Out {};
+  struct Params {
+    OutputPath path{"floorplan.geojson"};
+    std::string crs;
+  };
+  static constexpr auto inputs = std::tuple{port(&In::plan, "plan", "What to write.")};
+  static constexpr auto outputs = std::tuple{};
+  static constexpr auto params = std::tuple{
+      param(&Params::path, "path", "The file, in the run's folder."),
+      param(&Params::crs, "crs",
+            "The coordinate reference system of the input, as a URN: urn:ogc:def:crs:EPSG::25832; empty: local.")};
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::floorplan

@@ -1,0 +1,1 @@
+list(APPEND libraries TBB::tbb nlohmann_json::nlohmann_json)
