@@ -104,8 +104,8 @@ void normalise(WeightedImage& image, const std::vector<float>& all, const Layers
       pixel[3] = std::min(sum, 1.0F);
       const float visible = std::min(1.0F, layer_around[i] / (visible_share * all_around[i]));
       const float others = std::max(0.0F, near[layers.tile(static_cast<float>(x), static_cast<float>(y))] - 1);
-      const float believed = visible * std::min(1.0F, others / support);
-      image.confidence[i] = std::max(1e-6F, believed * believed);
+      const float supported = std::min(1.0F, others / support);
+      image.confidence[i] = std::max(1e-6F, visible * visible * visible * supported * supported);
     }
 }
 

@@ -1,1 +1,1 @@
-list(APPEND libraries atrium_geometry)
+list(APPEND libraries atrium_geometry atrium_synth atrium_scene nlohmann_json::nlohmann_json)
