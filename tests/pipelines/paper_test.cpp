@@ -25,7 +25,7 @@ TEST(Paper, FindsTheStructureOfATurnedAndTiltedFlat) {
   ASSERT_EQ(paper.exit_code, 0) << paper.err;
   const auto evaluated = run_pipeline_file(
       "evaluate.yaml",
-      {"structure=" + (scratch / "paper/structure.ply").string(), "truth=" + (scratch / "scan/truth.ply").string()},
+      {"structure=" + (scratch / "paper/structure.ply").string(), "truth=" + (scratch / "scan/truth.json").string()},
       scratch / "evaluated");
   ASSERT_EQ(evaluated.exit_code, 0) << evaluated.err;
   EXPECT_GE(metric(scratch / "evaluated/metrics.json", "structure.b50mm.completeness"), 0.90);
@@ -84,7 +84,7 @@ TEST(Paper, GeoreferencedScanComesBackWhereItWas) {
   ASSERT_EQ(far.exit_code, 0) << far.err;
   const auto evaluated = run_pipeline_file(
       "evaluate.yaml",
-      {"structure=" + (scratch / "far/structure.ply").string(), "truth=" + (scratch / "scan/truth.ply").string()},
+      {"structure=" + (scratch / "far/structure.ply").string(), "truth=" + (scratch / "scan/truth.json").string()},
       scratch / "evaluated");
   ASSERT_EQ(evaluated.exit_code, 0) << evaluated.err;
   EXPECT_LT(metric(scratch / "evaluated/metrics.json", "structure.b50mm.accuracy"), 0.001);

@@ -28,7 +28,7 @@ TEST_P(Simulate, ScanAndTruthAreWrittenAndTheTruthIsPerfect) {
   ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
   EXPECT_GT(std::filesystem::file_size(folder / "scan/scan.ply"), 5000U * 12);
   const auto evaluated = atrium({"run", pipelines + "evaluate.yaml", "-s", "structure=scan/truth.ply", "-s",
-                                 "truth=scan/truth.ply", "--out", "quality"});
+                                 "truth=scan/truth.json", "--out", "quality"});
   ASSERT_EQ(evaluated.exit_code, 0) << evaluated.err;
   const auto metrics = nlohmann::json::parse(read_text(folder / "quality/metrics.json"));
   EXPECT_EQ(metrics["structure"]["b20mm"]["completeness"]["value"], 1.0);

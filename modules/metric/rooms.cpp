@@ -1,0 +1,227 @@
+#include "modules/metric/rooms.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace atrium::metric {
+namespace {
+
+namespace bg = boost::geometry;
+using Point = bg::model::d2::point_xy<double>;
+using Polygon = bg::model::polygon<Point, false, false>;  // counter-clockwise, not closed
+
+constexpr double straight = 0.001;  // metres
+
+struct Room {
+  Polygon polygon;
+  std::vector<Eigen::Vector2d> corners;
+  double floor = 0;
+  bool valid = true;
+  double area() const { return valid ? bg::area(polygon) : 0; }
+};
+
+double line_distance(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2d d = b - a, e = p - a;
+  return d.norm() > 0 ? std::abs(d.x() * e.y() - d.y() * e.x()) / d.norm() : e.norm();
+}
+
+// Leaves out, one after the other, corners on the line of their neighbours.
+std::vector<Eigen::Vector2d> true_corners(std::vector<Eigen::Vector2d> ring) {
+  for (std::size_t i = 0; i < ring.size() && ring.size() > 3;) {
+    const auto n = ring.size();
+    if (line_distance(ring[i], ring[(i + n - 1) % n], ring[(i + 1) % n]) <= straight) {
+      ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
+      i = i > 0 ? i - 1 : 0;
+    } else {
+      ++i;
+    }
+  }
+  return ring;
+}
+
+Room room_of(const PlanPolygon& polygon, double floor, const Eigen::Vector2d& shift, const std::string& what) {
+  Room room;
+  room.floor = floor;
+  const auto fill = [&](auto& ring, const PlanRing& from) {
+    for (const auto& p : from) {
+      if (!p.allFinite()) throw Error(what + " has a corner that is not finite");
+      ring.emplace_back(p.x() + shift.x(), p.y() + shift.y());
+    }
+  };
+  fill(room.polygon.outer(), polygon.outline);
+  for (const auto& hole : polygon.holes) {
+    room.polygon.inners().emplace_back();
+    fill(room.polygon.inners().back(), hole);
+  }
+  bg::correct(room.polygon);
+  room.valid = polygon.outline.size() > 2 && bg::is_valid(room.polygon);
+  std::vector<Eigen::Vector2d> ring;
+  for (const auto& p : room.polygon.outer()) ring.emplace_back(p.x(), p.y());
+  room.corners = true_corners(std::move(ring));
+  return room;
+}
+
+// About `origin`, in which both sides are compared.
+std::vector<Room> rooms_of(const FloorPlan& plan, const Eigen::Vector3d& origin, const std::string& whose) {
+  std::vector<Room> rooms;
+  const Eigen::Vector3d shift = plan.origin - origin;
+  for (const auto& storey : plan.storeys)
+    for (const auto& room : storey.rooms)
+      rooms.push_back(
+          room_of(room.polygon, storey.elevation + shift.z(), shift.head<2>(), whose + " '" + room.name + "'"));
+  return rooms;
+}
+
+std::vector<Room> rooms_of(const GroundTruth& truth, const FloorPlan& plan) {
+  std::vector<Room> rooms;
+  for (const auto& room : truth.rooms) {
+    PlanPolygon polygon;
+    double floor = 0;
+    for (const auto& p : room.outline) {
+      const Eigen::Vector3d place = plan.to_plan.rotation * (truth.origin + p) + plan.to_plan.translation - plan.origin;
+      polygon.outline.emplace_back(place.head<2>());
+      floor += place.z() / static_cast<double>(room.outline.size());
+    }
+    rooms.push_back(room_of(polygon, floor, Eigen::Vector2d::Zero(), "the true room '" + room.name + "'"));
+  }
+  return rooms;
+}
+
+double overlap_share(const Room& a, const Room& b) {
+  std::vector<Polygon> common;
+  bg::intersection(a.polygon, b.polygon, common);
+  double both = 0;
+  for (const auto& piece : common) both += bg::area(piece);
+  return both / (a.area() + b.area() - both);
+}
+
+struct Pair {
+  double cost;
+  std::size_t a, b;
+  friend bool operator<(const Pair& p, const Pair& q) {
+    if (p.cost != q.cost) return p.cost < q.cost;
+    return p.a != q.a ? p.a < q.a : p.b < q.b;
+  }
+};
+// The cheapest first, each member once.
+std::vector<Pair> assigned(std::vector<Pair> pairs, std::size_t size_a, std::size_t size_b) {
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<bool> taken_a(size_a, false), taken_b(size_b, false);
+  std::vector<Pair> result;
+  for (const auto& p : pairs) {
+    if (taken_a[p.a] || taken_b[p.b]) continue;
+    taken_a[p.a] = taken_b[p.b] = true;
+    result.push_back(p);
+  }
+  return result;
+}
+
+// Degrees, 0 to 360: the turn from the next side to the one before.
+double inner_angle(const std::vector<Eigen::Vector2d>& ring, std::size_t i) {
+  const Eigen::Vector2d next = ring[(i + 1) % ring.size()] - ring[i],
+                        before = ring[(i + ring.size() - 1) % ring.size()] - ring[i];
+  const double angle = std::atan2(next.x() * before.y() - next.y() * before.x(), next.dot(before));
+  return (angle < 0 ? angle + 2 * std::numbers::pi : angle) * 180 / std::numbers::pi;
+}
+
+struct Score {
+  std::size_t expected = 0, found = 0, matched = 0;
+  double error = 0;
+};
+
+void report(Metrics& metrics, const std::string& name, const Score& s) {
+  const auto add = [&](const char* key, double value) { metrics.values.push_back({name + "." + key, value, ""}); };
+  const auto n = static_cast<double>(s.matched), all = static_cast<double>(s.expected),
+             found = static_cast<double>(s.found);
+  add("true", all);
+  add("found", found);
+  add("matched", n);
+  if (s.found > 0) add("precision", n / found);
+  if (s.expected > 0) add("recall", n / all);
+  if (s.found + s.expected > 0) add("f1", 2 * n / (found + all));
+}
+
+void match_corners(const Room& found, const Room& expected, const Rooms::Params& params, Score& corners,
+                   Score& angles) {
+  std::vector<Pair> near;
+  for (std::size_t i = 0; i < found.corners.size(); ++i)
+    for (std::size_t k = 0; k < expected.corners.size(); ++k) {
+      const double distance = (found.corners[i] - expected.corners[k]).norm();
+      if (distance <= params.corner_distance) near.push_back({distance, i, k});
+    }
+  for (const auto& pair : assigned(near, found.corners.size(), expected.corners.size())) {
+    ++corners.matched;
+    corners.error += pair.cost;
+    const double difference = std::abs(inner_angle(found.corners, pair.a) - inner_angle(expected.corners, pair.b));
+    if (difference > params.max_angle) continue;
+    ++angles.matched;
+    angles.error += difference;
+  }
+}
+
+double total_area(const std::vector<Room>& rooms) {
+  double sum = 0;
+  for (const auto& r : rooms) sum += r.area();
+  return sum;
+}
+
+std::vector<Pair> match_rooms(const std::vector<Room>& found, const std::vector<Room>& expected,
+                              const Rooms::Params& params) {
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      if (!found[i].valid || !expected[k].valid) continue;
+      if (std::abs(found[i].floor - expected[k].floor) > params.max_height) continue;
+      const double share = overlap_share(found[i], expected[k]);
+      if (share > params.min_iou) pairs.push_back({-share, i, k});
+    }
+  return assigned(pairs, found.size(), expected.size());
+}
+
+}  // namespace
+
+Rooms::Out Rooms::run(const In& in, const Params& params, Context& context) {
+  if (static_cast<bool>(in.truth) == static_cast<bool>(in.true_plan))
+    throw Error(in.truth ? "both truth and true_plan are wired" : "neither truth nor true_plan is wired",
+                "wire one of them: truth of a simulated scene or a layout, or a plan");
+  const auto expected =
+      in.truth ? rooms_of(*in.truth, *in.plan) : rooms_of(*in.true_plan, in.plan->origin, "the true room");
+  const auto found = rooms_of(*in.plan, in.plan->origin, "the room");
+  if (expected.empty()) throw Error("the truth has no rooms: nothing to compare with");
+  for (const auto* side : {&found, &expected}) {
+    const auto broken = std::count_if(side->begin(), side->end(), [](const Room& r) { return !r.valid; });
+    if (broken > 0)
+      context.warn(std::to_string(broken) + (side == &found ? " rooms of the plan" : " true rooms") +
+                   " are no simple polygon: they match nothing");
+  }
+  Score rooms{expected.size(), found.size()}, corners, angles;
+  for (const auto& r : found) corners.found += r.corners.size();
+  for (const auto& r : expected) corners.expected += r.corners.size();
+  angles = corners;
+  for (const auto& pair : match_rooms(found, expected, params)) {
+    ++rooms.matched;
+    rooms.error -= pair.cost;
+    match_corners(found[pair.a], expected[pair.b], params, corners, angles);
+  }
+  Out out;
+  const auto mean = [&](const char* name, const Score& s, const char* unit) {
+    if (s.matched > 0) out.metrics.values.push_back({name, s.error / static_cast<double>(s.matched), unit});
+  };
+  report(out.metrics, "rooms", rooms);
+  mean("rooms.iou", rooms, "");
+  out.metrics.values.push_back({"rooms.area.true", total_area(expected), "m2"});
+  out.metrics.values.push_back({"rooms.area.found", total_area(found), "m2"});
+  report(out.metrics, "rooms.corners", corners);
+  mean("rooms.corners.error", corners, "m");
+  report(out.metrics, "rooms.angles", angles);
+  mean("rooms.angles.error", angles, "deg");
+  return out;
+}
+
+}  // namespace atrium::metric
