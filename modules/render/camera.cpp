@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace atrium::render {
@@ -18,7 +17,6 @@ Eigen::Vector3d direction_of(View view) {
     case View::back: return {0, -1, 0};
     case View::left: return {1, 0, 0};
     case View::right: return {-1, 0, 0};
-    case View::inside: return Eigen::Vector3d(1, 1, 0).normalized();
     default: return Eigen::Vector3d(0.75, 1.0, -1.05).normalized();
   }
 }
@@ -35,45 +33,43 @@ void place(vtkCamera* camera, const Eigen::Vector3d& eye, const Eigen::Vector3d&
 
 }  // namespace
 
-void set_view(vtkRenderer* renderer, View view, const Eigen::AlignedBox3d& box, double aspect, bool perspective) {
+double set_view(vtkRenderer* renderer, View view, const Eigen::AlignedBox3d& box, int width, int height,
+                int right_margin, bool perspective) {
   auto* camera = renderer->GetActiveCamera();
   const Eigen::Vector3d forward = direction_of(view);
   const Eigen::Vector3d up = view == View::top ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d side = forward.cross(up).normalized();
   const Eigen::Vector3d top = side.cross(forward);
   const Eigen::Vector3d centre = box.center();
-  if (view == View::inside) {
-    const double back = 0.35 * std::min(box.sizes().x(), box.sizes().y());
-    const Eigen::Vector3d eye{centre.x() - back * forward.x(), centre.y() - back * forward.y(),
-                              std::min(box.min().z() + 1.6, centre.z() + 0.4 * box.sizes().z())};
-    place(camera, eye, eye + forward, up);
-    camera->SetViewAngle(75);
-  } else {
-    double half_width = 0;
-    double half_height = 0;
-    for (int i = 0; i < 8; ++i) {
-      const Eigen::Vector3d arm = corner_of(box, i) - centre;
-      half_width = std::max(half_width, std::abs(arm.dot(side)));
-      half_height = std::max(half_height, std::abs(arm.dot(top)));
-    }
-    constexpr double margin = 1.12;
-    const double scale = margin * std::max({half_height, half_width / aspect, 1e-3});
-    camera->SetParallelProjection(perspective ? 0 : 1);
-    camera->SetParallelScale(scale);
-    camera->SetViewAngle(30);
-    const double away = scale / std::tan(15.0 * std::numbers::pi / 180) + (perspective ? box.diagonal().norm() / 2 : 0);
-    place(camera, centre - away * forward, centre, up);
+  double half_width = 0;
+  double half_height = 0;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d arm = corner_of(box, i) - centre;
+    half_width = std::max(half_width, std::abs(arm.dot(side)));
+    half_height = std::max(half_height, std::abs(arm.dot(top)));
   }
+  constexpr double margin = 1.12;
+  const double scale = margin * std::max({half_height, half_width * height / (width - right_margin), 1e-3});
+  camera->SetParallelProjection(perspective ? 0 : 1);
+  camera->SetParallelScale(scale);
+  camera->SetViewAngle(30);
+  camera->SetWindowCenter(static_cast<double>(right_margin) / width, 0);
+  const double away = scale / std::tan(15.0 * std::numbers::pi / 180) + (perspective ? box.diagonal().norm() / 2 : 0);
+  place(camera, centre - away * forward, centre, up);
   renderer->ResetCameraClippingRange();
+  return 2 * scale / height;
 }
 
-void set_view(vtkRenderer* renderer, const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
-              const Eigen::AlignedBox3d& /*box*/) {
+double set_view(vtkRenderer* renderer, const Eigen::Vector3d& eye, const Eigen::Vector3d& target, int height) {
+  constexpr double angle = 62;
+  constexpr double distance = 3;
   auto* camera = renderer->GetActiveCamera();
   const Eigen::Vector3d forward = (target - eye).normalized();
   place(camera, eye, target, std::abs(forward.z()) > 0.999 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ());
-  camera->SetViewAngle(60);
+  camera->SetParallelProjection(0);
+  camera->SetViewAngle(angle);
   renderer->ResetCameraClippingRange();
+  return 2 * distance * std::tan(angle / 2 * std::numbers::pi / 180) / height;
 }
 
 }  // namespace atrium::render

@@ -1,53 +1,23 @@
 #include "modules/render/drawing.hpp"
 
-#include <vtkActor.h>
 #include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <map>
+#include <array>
+#include <cmath>
 
-#include "modules/types/palette.hpp"
+#include "modules/render/drawing_impl.hpp"
+#include "modules/render/point_spacing.hpp"
 
 namespace atrium::render {
-
-struct Drawing::Impl {
-  Eigen::Matrix3d rotation;
-  bool has_origin = false;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  Eigen::AlignedBox3d box;
-  vtkNew<vtkRenderer> renderer;
-
-  /// From a value's local coordinates to the drawing's.
-  Eigen::Vector3d offset(const Eigen::Vector3d& value_origin) {
-    if (!has_origin) origin = value_origin;
-    has_origin = true;
-    return value_origin - origin;
-  }
-  Eigen::Vector3f place(const Eigen::Vector3d& local, const Eigen::Vector3d& shift) const {
-    return (rotation * (local + shift)).cast<float>();
-  }
-  vtkActor* add(vtkPolyData* data, bool per_cell) {
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(data);
-    if (per_cell) mapper->SetScalarModeToUseCellData();
-    mapper->SetColorModeToDirectScalars();
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
-    renderer->AddActor(actor);
-    return actor;
-  }
-};
-
 namespace {
+
+constexpr std::size_t most_surface_points = 300000;
 
 /// Drops the outermost `share` of the values at each end.
 std::pair<float, float> trimmed_range(std::vector<float> values, double share) {
@@ -74,125 +44,80 @@ Eigen::AlignedBox3d trimmed_box(const std::vector<Eigen::Vector3f>& places, doub
   return box;
 }
 
-void style_surface(vtkActor* actor) {
-  auto* property = actor->GetProperty();
-  property->SetInterpolationToFlat();
-  property->SetAmbient(0.45);
-  property->SetDiffuse(0.55);
-  property->SetSpecular(0);
+/// Points on a triangle, at most `spacing` apart.
+void sample(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double spacing,
+            std::vector<Eigen::Vector3f>& points) {
+  const double longest = std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
+  const int steps = std::max(1, static_cast<int>(std::ceil(longest / spacing)));
+  for (int i = 0; i <= steps; ++i)
+    for (int k = 0; k <= steps - i; ++k)
+      points.emplace_back((a + (b - a) * i / steps + (c - a) * k / steps).cast<float>());
 }
 
 }  // namespace
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>> outline_edges(const Mesh& mesh) {
-  struct Use {
-    int count = 0;
-    std::int32_t primitive = -1;
-    bool border = false;
-  };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Use> uses;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto primitive = mesh.primitives.empty() ? -1 : mesh.primitives[t];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto edge = std::minmax({mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]});
-      Use& use = uses[edge];
-      use.border = use.count > 0 && use.primitive != primitive;
-      use.primitive = primitive;
-      ++use.count;
-    }
-  }
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> result;
-  for (const auto& [edge, use] : uses)
-    if (use.count == 1 || use.border) result.push_back(edge);
-  return result;
+vtkActor* Drawing::Impl::add(vtkPolyData* data, bool colour_per_cell) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  if (colour_per_cell) mapper->SetScalarModeToUseCellData();
+  mapper->SetColorModeToDirectScalars();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  renderer->AddActor(actor);
+  return actor;
 }
 
 Drawing::Drawing(const Transform& to_upright, const Eigen::Vector3d& background) : impl_(std::make_unique<Impl>()) {
   impl_->rotation = to_upright.rotation;
+  impl_->translation = to_upright.translation;
+  // Lines on faces must not sink into them.
+  vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   impl_->renderer->SetBackground(background.x(), background.y(), background.z());
 }
 Drawing::~Drawing() = default;
 
-void Drawing::add_cloud(const Cloud& cloud, const std::vector<Colour>& colours, const CloudStyle& style) {
-  if (cloud.points.empty()) return;
+void Drawing::add_points(const Cloud& cloud, const std::vector<std::uint32_t>& chosen,
+                         const std::vector<Colour>& colours, double cut_below_top) {
+  if (chosen.empty()) return;
   const Eigen::Vector3d shift = impl_->offset(cloud.origin);
-  const std::size_t step = (cloud.size() + style.max_points - 1) / style.max_points;
   std::vector<Eigen::Vector3f> places;
-  std::vector<Colour> shown;
-  for (std::size_t i = 0; i < cloud.size(); i += step) {
-    places.push_back(impl_->place(cloud.points[i].cast<double>(), shift));
-    shown.push_back(colours[i]);
-  }
+  places.reserve(chosen.size());
+  for (const auto i : chosen) places.push_back(impl_->place(cloud.points[i].cast<double>(), shift));
   const Eigen::AlignedBox3d box = trimmed_box(places, 0.001);
   impl_->box.extend(box);
-  const double top = style.cut_below_top > 0 ? box.max().z() - style.cut_below_top : 1e30;
+  const double top = cut_below_top > 0 ? box.max().z() - cut_below_top : 1e30;
 
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkUnsignedCharArray> colour;
-  colour->SetNumberOfComponents(3);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (places[i].z() > top) continue;
-    points->InsertNextPoint(places[i].data());
-    colour->InsertNextTypedTuple(shown[i].data());
+  const PointSpacing density = point_spacing(places);
+  for (const char lone : {0, 1}) {
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkUnsignedCharArray> colour;
+    colour->SetNumberOfComponents(3);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (places[i].z() > top || density.lone[i] != lone) continue;
+      points->InsertNextPoint(places[i].data());
+      colour->InsertNextTypedTuple(colours[i].data());
+    }
+    vtkNew<vtkCellArray> cells;
+    cells->InsertNextCell(static_cast<int>(points->GetNumberOfPoints()));
+    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i) cells->InsertCellPoint(i);
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    data->SetVerts(cells);
+    data->GetPointData()->SetScalars(colour);
+    auto* actor = impl_->add(data, false);
+    actor->GetProperty()->LightingOff();
+    impl_->clouds.emplace_back(actor, lone != 0 ? 0 : density.spacing);
   }
-  vtkNew<vtkCellArray> cells;
-  cells->InsertNextCell(points->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i) cells->InsertCellPoint(i);
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetVerts(cells);
-  data->GetPointData()->SetScalars(colour);
-  auto* actor = impl_->add(data, false);
-  actor->GetProperty()->SetPointSize(static_cast<float>(style.point_size));
-  actor->GetProperty()->LightingOff();
+  const std::size_t step = places.size() / most_surface_points + 1;
+  for (std::size_t i = 0; i < places.size(); i += step) impl_->points.push_back(places[i]);
 }
 
-void Drawing::add_mesh(const Mesh& mesh, const MeshStyle& style) {
-  if (mesh.triangles.empty()) return;
-  const Eigen::Vector3d shift = impl_->offset(mesh.origin);
-  vtkNew<vtkPoints> points;
-  for (const auto& v : mesh.vertices) {
-    const Eigen::Vector3f place = impl_->place(v, shift);
-    points->InsertNextPoint(place.data());
-    impl_->box.extend(place.cast<double>());
+void Drawing::set_point_size(double pixels, double metres_per_pixel, int picture_height) {
+  const double least = std::max(1.0, picture_height / 480.0);
+  for (const auto& [actor, spacing] : impl_->clouds) {
+    const double automatic = std::clamp(1.2 * spacing / metres_per_pixel, least, 4 * least);
+    actor->GetProperty()->SetPointSize(static_cast<float>(std::round(pixels > 0 ? pixels : automatic)));
   }
-  Mesh shown;
-  vtkNew<vtkCellArray> cells;
-  vtkNew<vtkUnsignedCharArray> colour;
-  colour->SetNumberOfComponents(3);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto surface = mesh.classes.empty() ? SurfaceClass::object : mesh.classes[t];
-    if (!style.ceilings && surface == SurfaceClass::ceiling) continue;
-    cells->InsertNextCell({mesh.triangles[t][0], mesh.triangles[t][1], mesh.triangles[t][2]});
-    colour->InsertNextTypedTuple(class_colour(surface).data());
-    if (surface == SurfaceClass::object) continue;
-    shown.triangles.push_back(mesh.triangles[t]);
-    shown.primitives.push_back(mesh.primitives.empty() ? -1 : mesh.primitives[t]);
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(cells);
-  const bool by_vertex = style.vertex_colours && !mesh.colours.empty();
-  if (by_vertex) {
-    colour->Reset();
-    for (const auto& c : mesh.colours) colour->InsertNextTypedTuple(c.data());
-    data->GetPointData()->SetScalars(colour);
-  } else {
-    data->GetCellData()->SetScalars(colour);
-  }
-  auto* actor = impl_->add(data, !by_vertex);
-  style_surface(actor);
-  actor->GetProperty()->SetBackfaceCulling(style.inside ? 1 : 0);
-  if (!style.edges) return;
-
-  vtkNew<vtkCellArray> lines;
-  for (const auto& [a, b] : outline_edges(shown)) lines->InsertNextCell({a, b});
-  vtkNew<vtkPolyData> outline;
-  outline->SetPoints(points);
-  outline->SetLines(lines);
-  auto* edges = impl_->add(outline, false);
-  edges->GetProperty()->SetColor(0.15, 0.15, 0.15);
-  edges->GetProperty()->LightingOff();
 }
 
 void Drawing::add_adjacency(const PlaneMeshes& meshes, const Adjacency& adjacency) {
@@ -213,12 +138,33 @@ void Drawing::add_adjacency(const PlaneMeshes& meshes, const Adjacency& adjacenc
   data->SetPoints(points);
   data->SetLines(lines);
   auto* actor = impl_->add(data, false);
-  actor->GetProperty()->SetColor(0.8, 0.2, 0.2);
+  actor->GetProperty()->SetColor(0.84, 0.37, 0);
   actor->GetProperty()->LightingOff();
 }
 
+std::vector<Eigen::Vector3f> Drawing::surface_points() const {
+  std::vector<Eigen::Vector3f> points = impl_->points;
+  const double across = impl_->box.sizes().maxCoeff();
+  const double spacing = std::max(0.08, across / 400);
+  for (const auto& mesh : impl_->meshes) {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    for (vtkIdType t = 0; t < mesh->GetPolys()->GetNumberOfCells(); ++t) {
+      mesh->GetPolys()->GetCellAtId(t, size, corners);
+      std::array<Eigen::Vector3d, 3> corner;
+      for (std::size_t k = 0; k < 3; ++k) mesh->GetPoint(corners[k], corner[k].data());
+      sample(corner[0], corner[1], corner[2], spacing, points);
+    }
+  }
+  return points;
+}
+
+Eigen::Vector3d Drawing::local(const Eigen::Vector3d& upright) const {
+  return upright - impl_->translation - impl_->rotation * impl_->origin;
+}
 Eigen::AlignedBox3d Drawing::bounds() const { return impl_->box; }
 bool Drawing::empty() const { return impl_->box.isEmpty(); }
+const std::set<SurfaceClass>& Drawing::classes() const { return impl_->classes; }
 vtkRenderer* Drawing::renderer() const { return impl_->renderer; }
 
 }  // namespace atrium::render

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <memory>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -8,12 +9,13 @@
 #include "modules/types/cloud.hpp"
 #include "modules/types/mesh.hpp"
 #include "modules/types/plane_meshes.hpp"
+#include "modules/types/textures.hpp"
 
 class vtkRenderer;
 
 namespace atrium::render {
 
-/// What is to be seen, in one frame: z up, coordinates relative to `origin`.
+/// What is to be seen, in one frame: z up, coordinates relative to the origin of what is added first.
 class Drawing {
  public:
   Drawing(const Transform& to_upright, const Eigen::Vector3d& background);
@@ -21,21 +23,22 @@ class Drawing {
   Drawing(const Drawing&) = delete;
   Drawing& operator=(const Drawing&) = delete;
 
-  struct CloudStyle {
-    double point_size = 2;             ///< pixels
-    std::size_t max_points = 2000000;  ///< more are thinned evenly, for drawing only
-    double cut_below_top = 0;          ///< metres at the top that are left out (the ceiling); 0: none
-  };
-  /// Points in the given colours (one per point).
-  void add_cloud(const Cloud& cloud, const std::vector<Colour>& colours, const CloudStyle& style);
+  /// The chosen points, in the given colours (one per chosen point), but for those nearer than `cut_below_top` metres
+  /// to the top (the ceiling); 0: all of them.
+  void add_points(const Cloud& cloud, const std::vector<std::uint32_t>& chosen, const std::vector<Colour>& colours,
+                  double cut_below_top);
+  /// Pixels; 0: so that points close up to surfaces where they are not too sparse for it; lone points are small.
+  void set_point_size(double pixels, double metres_per_pixel, int picture_height);
 
   struct MeshStyle {
-    bool edges = true;     ///< the outlines of faces
-    bool inside = true;    ///< only sides that face the camera: rooms are looked into from outside
-    bool ceilings = true;  ///< draw faces of the class ceiling
+    double line_width = 1;  ///< pixels
+    bool edges = true;      ///< the outlines of faces
+    bool inside = true;     ///< only sides that face the camera: rooms are looked into from outside
+    bool ceilings = true;   ///< draw faces of the class ceiling
     bool vertex_colours = false;
   };
-  void add_mesh(const Mesh& mesh, const MeshStyle& style);
+  /// Faces of primitives that have an image are drawn with it, the others in the colour of their class.
+  void add_mesh(const Mesh& mesh, const MeshStyle& style, const Textures* textures = nullptr);
 
   /// Lines from mesh centre to mesh centre.
   void add_adjacency(const PlaneMeshes& meshes, const Adjacency& adjacency);
@@ -43,6 +46,12 @@ class Drawing {
   /// The box that a camera must show: meshes whole, clouds without their outermost 0.1 % on each side.
   Eigen::AlignedBox3d bounds() const;
   bool empty() const;
+  /// The classes of surfaces that are drawn in their class's colour.
+  const std::set<SurfaceClass>& classes() const;
+  /// Points on all that is drawn: those of clouds, and of triangles a few centimetres apart; some hundred thousand.
+  std::vector<Eigen::Vector3f> surface_points() const;
+  /// From a place in the upright frame to the drawing's coordinates.
+  Eigen::Vector3d local(const Eigen::Vector3d& upright) const;
   vtkRenderer* renderer() const;
 
  private:

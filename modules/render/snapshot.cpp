@@ -12,11 +12,10 @@
 #include <cstring>
 
 #include "modules/render/camera.hpp"
-#include "modules/render/drawing.hpp"
+#include "modules/render/inside_view.hpp"
 #include "modules/render/offscreen_window.hpp"
-#include "modules/render/overlay.hpp"
 #include "modules/render/png.hpp"
-#include "modules/types/palette.hpp"
+#include "modules/render/stage.hpp"
 
 namespace atrium::render {
 namespace {
@@ -37,116 +36,6 @@ View view_of(const std::string& name) {
   throw Error("there is no view '" + name + "'", "views are isometric, top, front, back, left, right and inside");
 }
 
-/// A perceptually even ramp from blue over green to yellow (five stops of viridis).
-Colour ramp(double t) {
-  constexpr std::array<std::array<double, 3>, 5> stops{
-      {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}}};
-  const double x = std::clamp(t, 0.0, 1.0) * 4;
-  const auto i = std::min<std::size_t>(static_cast<std::size_t>(x), 3);
-  Colour colour{};
-  for (std::size_t k = 0; k < 3; ++k)
-    colour[k] = static_cast<std::uint8_t>(
-        std::lround(stops[i][k] + (x - static_cast<double>(i)) * (stops[i + 1][k] - stops[i][k])));
-  return colour;
-}
-
-std::vector<Colour> height_colours(const Cloud& cloud, const Eigen::Matrix3d& to_upright) {
-  const Eigen::Vector3f up = to_upright.row(2).transpose().cast<float>();
-  std::vector<float> heights(cloud.size());
-  std::transform(cloud.points.begin(), cloud.points.end(), heights.begin(), [&](const auto& p) { return up.dot(p); });
-  std::vector<float> sorted = heights;
-  std::sort(sorted.begin(), sorted.end());
-  const float low = sorted[sorted.size() / 200];
-  const float high = sorted[sorted.size() - 1 - sorted.size() / 200];
-  std::vector<Colour> colours(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) colours[i] = ramp((heights[i] - low) / std::max(high - low, 1e-3F));
-  return colours;
-}
-
-std::vector<Colour> cloud_colours(const Cloud& cloud, Snapshot::ColourBy by, const Eigen::Matrix3d& to_upright) {
-  using By = Snapshot::ColourBy;
-  if (by == By::automatic) by = cloud.colours.empty() ? By::height : By::colour;
-  if (by == By::colour && cloud.colours.empty())
-    throw Error("the cloud has no colours", "colour_by: height draws any cloud");
-  if (by == By::label && cloud.labels.empty())
-    throw Error("the cloud has no labels", "colour_by: height draws any cloud");
-  if (by == By::colour) return cloud.colours;
-  if (by == By::height) return height_colours(cloud, to_upright);
-  std::vector<Colour> colours(cloud.size(), Colour{110, 110, 110});
-  if (by == By::label)
-    for (std::size_t i = 0; i < cloud.size(); ++i)
-      if (cloud.labels[i] >= 0) colours[i] = index_colour(static_cast<std::size_t>(cloud.labels[i]));
-  return colours;
-}
-
-std::vector<Colour> primitive_colours(const PlanePrimitives& planes) {
-  std::vector<Colour> colours(planes.cloud->size(), Colour{200, 200, 200});
-  for (std::size_t k = 0; k < planes.primitives.size(); ++k)
-    for (const auto i : planes.primitives[k].inliers) colours[i] = index_colour(k);
-  return colours;
-}
-
-/// The points of structural primitives, each in the colour of its class.
-Cloud structural_points(const Structure& structure, bool ceilings) {
-  const PlanePrimitives& planes = *structure.primitives;
-  std::vector<std::uint32_t> chosen;
-  std::vector<Colour> colours;
-  for (std::size_t k = 0; k < planes.primitives.size(); ++k) {
-    const SurfaceClass surface = structure.classes[k];
-    if (surface == SurfaceClass::object || (surface == SurfaceClass::ceiling && !ceilings)) continue;
-    const auto& inliers = planes.primitives[k].inliers;
-    chosen.insert(chosen.end(), inliers.begin(), inliers.end());
-    colours.insert(colours.end(), inliers.size(), class_colour(surface));
-  }
-  Cloud cloud = select(*planes.cloud, chosen);
-  cloud.colours = std::move(colours);
-  return cloud;
-}
-
-Mesh triangulated(const PlaneMeshes& meshes) {
-  Mesh result;
-  result.origin = meshes.origin;
-  for (const auto& m : meshes.meshes) {
-    const auto first = static_cast<std::uint32_t>(result.vertices.size());
-    result.vertices.insert(result.vertices.end(), m.corners.begin(), m.corners.end());
-    for (std::uint32_t k = 2; k < m.corners.size(); ++k) {
-      result.triangles.push_back({first, first + k - 1, first + k});
-      result.classes.push_back(m.surface);
-      result.primitives.push_back(m.primitive);
-    }
-  }
-  return result;
-}
-
-void add_inputs(Drawing& drawing, const Snapshot::In& in, const Params& params, bool from_above,
-                const Eigen::Matrix3d& to_upright) {
-  const Drawing::CloudStyle points{params.point_size, 2000000,
-                                   from_above && !params.ceilings ? params.cut_below_top : 0};
-  if (in.cloud && !in.cloud->points.empty())
-    drawing.add_cloud(*in.cloud, cloud_colours(*in.cloud, params.colour_by, to_upright), points);
-  if (in.planes && !in.planes->cloud->points.empty())
-    drawing.add_cloud(*in.planes->cloud, primitive_colours(*in.planes), points);
-  if (in.structure) {
-    const Cloud cloud = structural_points(*in.structure, params.ceilings);
-    drawing.add_cloud(cloud, cloud.colours, {params.point_size, 2000000, 0});
-  }
-  const Drawing::MeshStyle surfaces{params.edges, !params.ceilings, params.ceilings, false};
-  if (in.meshes) drawing.add_mesh(triangulated(*in.meshes), surfaces);
-  if (in.meshes && in.adjacency) drawing.add_adjacency(*in.meshes, *in.adjacency);
-  if (in.mesh) drawing.add_mesh(*in.mesh, surfaces);
-  if (in.truth) drawing.add_mesh(in.truth->mesh, surfaces);
-  if (in.objects) drawing.add_mesh(*in.objects, {false, false, true, true});
-}
-
-std::vector<std::pair<std::string, Colour>> legend_of(const Snapshot::In& in, bool ceilings) {
-  std::vector<std::pair<std::string, Colour>> legend;
-  if (!in.meshes && !in.mesh && !in.truth && !in.structure) return legend;
-  for (const auto surface : {SurfaceClass::wall, SurfaceClass::floor, SurfaceClass::ceiling, SurfaceClass::object})
-    if (ceilings || surface != SurfaceClass::ceiling)
-      legend.emplace_back(std::string(name_of(surface)), class_colour(surface));
-  return legend;
-}
-
 Picture grab(vtkRenderWindow* window, int width, int height) {
   window->Render();
   vtkNew<vtkUnsignedCharArray> pixels;
@@ -162,39 +51,65 @@ Picture grab(vtkRenderWindow* window, int width, int height) {
 
 Eigen::Vector3d vector_of(const std::vector<double>& v, const char* name) {
   if (v.size() != 3) throw Error(std::string("'") + name + "' needs three numbers [x, y, z]");
+  for (const double number : v)
+    if (!std::isfinite(number)) throw Error(std::string("'") + name + "' is not a place: a number is not finite");
   return {v[0], v[1], v[2]};
 }
 
-Picture draw(const Snapshot::In& in, const Params& params, const std::string& view_name) {
-  const Transform to_upright = in.transform ? *in.transform : Transform{};
+/// Sets the camera up and sizes the points for it.
+void aim(Drawing& drawing, const Params& params, const std::string& view_name, bool colour_bar) {
+  const int width = static_cast<int>(params.width);
+  const int height = static_cast<int>(params.height);
+  const int margin =
+      colour_bar ? std::min(width / 2, static_cast<int>(colour_bar_width * params.text_size * height)) : 0;
+  double metres_per_pixel = 0;
+  if (view_name == "camera") {
+    const Eigen::Vector3d eye = vector_of(params.eye, "eye");
+    const Eigen::Vector3d target = vector_of(params.target, "target");
+    if ((target - eye).norm() < 1e-6) throw Error("'eye' and 'target' are the same place", "look at another place");
+    metres_per_pixel = set_view(drawing.renderer(), drawing.local(eye), drawing.local(target), height);
+  } else if (view_of(view_name) == View::inside) {
+    const Viewpoint place = inside_view(drawing.surface_points());
+    metres_per_pixel = set_view(drawing.renderer(), place.eye, place.target, height);
+  } else {
+    metres_per_pixel =
+        set_view(drawing.renderer(), view_of(view_name), drawing.bounds(), width, height, margin, params.perspective);
+  }
+  drawing.set_point_size(params.point_size, metres_per_pixel, height);
+}
+
+Picture draw(const Snapshot::In& in, const Params& params, const std::string& view_name, const Context& context) {
   const bool dark = params.background == Snapshot::Background::black;
-  const bool explicit_camera = view_name == "camera";
-  const View view = explicit_camera ? View::inside : view_of(view_name);
+  const bool within = view_name == "camera" || view_of(view_name) == View::inside;
+  const bool open = view_name == "isometric" || view_name == "top";
   const int width = static_cast<int>(params.width);
   const int height = static_cast<int>(params.height);
 
-  Drawing drawing(to_upright, dark ? Eigen::Vector3d::Zero() : Eigen::Vector3d::Ones());
-  add_inputs(drawing, in, params, view == View::isometric || view == View::top, to_upright.rotation);
+  Drawing drawing(in.transform ? *in.transform : Transform{}, dark ? Eigen::Vector3d::Zero() : Eigen::Vector3d::Ones());
+  Overlay overlay;
+  add_inputs(drawing, overlay, in, params, open, within, context);
   if (drawing.empty())
     throw Error("there is nothing to draw", "wire a cloud, planes, meshes or a mesh that is not empty");
-  if (explicit_camera)
-    set_view(drawing.renderer(), vector_of(params.eye, "eye"), vector_of(params.target, "target"), drawing.bounds());
-  else
-    set_view(drawing.renderer(), view, drawing.bounds(), static_cast<double>(width) / height, params.perspective);
-
-  Overlay overlay;
   overlay.title = params.title;
+  overlay.text_size = params.text_size;
   overlay.dark_background = dark;
-  if (params.legend) overlay.legend = legend_of(in, params.ceilings);
+  if (!params.legend) overlay.legend.clear();
+  if (!params.scale_bar) overlay.colours.reset();
+  aim(drawing, params, view_name, overlay.colours.has_value());
   auto* camera = drawing.renderer()->GetActiveCamera();
   if (params.scale_bar && camera->GetParallelProjection() != 0)
     overlay.scale_bar = 2 * camera->GetParallelScale() * width / height;
-  add_overlay(drawing.renderer(), overlay, width, height);
+  vtkNew<vtkRenderer> front;
+  front->SetLayer(1);
+  add_overlay(drawing.renderer(), front, overlay, width, height);
 
   OffscreenWindow window(width, height);
+  window.get()->SetNumberOfLayers(2);
   window.get()->AddRenderer(drawing.renderer());
+  window.get()->AddRenderer(front);
   Picture picture = grab(window.get(), width, height);
   picture.caption = params.title.empty() ? view_name : params.title;
+  window.get()->RemoveRenderer(front);
   window.get()->RemoveRenderer(drawing.renderer());
   return picture;
 }
@@ -206,7 +121,7 @@ Snapshot::Out Snapshot::run(const In& in, const Params& params, Context& context
   if (!params.eye.empty() || !params.target.empty()) views = {"camera"};
   if (views.empty()) throw Error("no view is asked for", "views: [isometric, top]");
   for (const auto& name : views)
-    if (name != "camera" || params.eye.empty()) view_of(name);
+    if (name != "camera" || (params.eye.empty() && params.target.empty())) view_of(name);
 
   Out out;
   const std::filesystem::path path = context.output(params.path.path);
@@ -214,7 +129,7 @@ Snapshot::Out Snapshot::run(const In& in, const Params& params, Context& context
     context.check_cancelled();
     {
       const RenderLock lock;
-      out.pictures.pictures.push_back(draw(in, params, views[i]));
+      out.pictures.pictures.push_back(draw(in, params, views[i], context));
     }
     std::filesystem::path file = path;
     if (views.size() > 1) file.replace_filename(path.stem().string() + "_" + views[i] + path.extension().string());

@@ -12,6 +12,7 @@
 #include "modules/types/plane_meshes.hpp"
 #include "modules/types/plane_primitives.hpp"
 #include "modules/types/structure.hpp"
+#include "modules/types/textures.hpp"
 
 namespace atrium::render {
 
@@ -19,7 +20,8 @@ namespace atrium::render {
 ///
 /// All inputs are optional, at least one must be wired; they are drawn together. Inputs in another frame than z up come
 /// with the transform that brings them there: `transform` applies to all of them. The camera fits the meshes and the
-/// cloud without its outermost 0.1 %. Errors: nothing to draw; an unknown view; no way to render on this machine.
+/// cloud without its outermost 0.1 %. Of more than 2 million points every second, third, … is drawn. Errors: nothing to
+/// draw; an unknown view or colour map; a camera that is not a place and a target; no way to render on this machine.
 struct Snapshot {
   static constexpr std::string_view type = "render.snapshot";
   static constexpr std::string_view summary = "Draws clouds, primitives and meshes into PNG files, without a display.";
@@ -31,14 +33,16 @@ struct Snapshot {
     OptionalInput<PlaneMeshes> meshes;
     OptionalInput<Adjacency> adjacency;
     OptionalInput<Mesh> mesh;
+    OptionalInput<Textures> textures;
     OptionalInput<Mesh> objects;
     OptionalInput<GroundTruth> truth;
+    OptionalInput<Mesh> reference;
     OptionalInput<Transform> transform;
   };
   struct Out {
     Pictures pictures;
   };
-  enum class ColourBy { automatic, colour, height, label, plain };
+  enum class ColourBy { automatic, colour, height, label, distance, signed_distance, plain };
   enum class Background { white, black };
   struct Params {
     OutputPath path{"snapshot.png"};
@@ -48,7 +52,9 @@ struct Snapshot {
     std::int64_t width = 1280;
     std::int64_t height = 960;
     ColourBy colour_by = ColourBy::automatic;
-    double point_size = 2;
+    std::string colour_map;
+    double scale_end = 0;
+    double point_size = 0;
     bool perspective = false;
     bool ceilings = false;
     double cut_below_top = 0.4;
@@ -56,6 +62,7 @@ struct Snapshot {
     bool legend = true;
     bool scale_bar = true;
     std::string title;
+    double text_size = 0.022;
     Background background = Background::white;
   };
 
@@ -66,15 +73,21 @@ struct Snapshot {
       port(&In::meshes, "meshes", "Planar meshes, coloured by class."),
       port(&In::adjacency, "adjacency", "Drawn as lines between the centres of `meshes`, which it needs."),
       port(&In::mesh, "mesh", "A structural or scene mesh, coloured by class."),
+      port(&In::textures, "textures",
+           "Images for the faces of `mesh`, in its frame; the others keep their class's colour."),
       port(&In::objects, "objects", "A mesh of furniture."),
       port(&In::truth, "truth", "Ground truth of a simulated scene, coloured by class."),
+      port(&In::reference, "reference",
+           "What `colour_by: distance` measures to, in the cloud's frame. It is not drawn."),
       port(&In::transform, "transform", "From the inputs' frame to z up; without it they are taken to be z up.")};
   static constexpr auto outputs = std::tuple{port(&Out::pictures, "pictures", "One per view, for a contact sheet.")};
   static constexpr auto params = std::tuple{
       param(&Params::path, "path", "PNG file; with several views the view's name is added before the extension."),
-      param(&Params::views, "views",
-            "Any of isometric, top, front, back, left, right, inside. Walls that face away are "
-            "left out, so that rooms are seen from outside."),
+      param(
+          &Params::views, "views",
+          "Any of isometric, top, front, back, left, right, inside. Walls that face away are "
+          "left out, so that rooms are seen from outside. Inside stands at eye height (1.6 m above the lowest floor), "
+          "over floor, away from what is in the way, and looks to where most floor is seen."),
       param(&Params::eye, "eye", metres, unbounded,
             "Explicit camera: where it stands, [x, y, z] in the z-up frame, in "
             "place of `views`; needs `target`."),
@@ -86,9 +99,24 @@ struct Snapshot {
              {"colour", ColourBy::colour},
              {"height", ColourBy::height},
              {"label", ColourBy::label},
+             {"distance", ColourBy::distance},
+             {"signed_distance", ColourBy::signed_distance},
              {"plain", ColourBy::plain}},
-            "Colour of the cloud; automatic: its own colours where it has them, else height."),
-      param(&Params::point_size, "point_size", unitless, within(1, 20), "Pixels."),
+            "Colour of the cloud; automatic: distance if `reference` is wired, else its own colours where it has them, "
+            "else height. A signed distance is positive on the side that the reference's faces look to. Heights and "
+            "distances come with a colour bar."),
+      param(
+          &Params::colour_map, "colour_map",
+          "A file of share/colormaps by its name: viridis, cividis, cool_warm, okabe_ito; empty: viridis for heights, "
+          "cividis for distances, cool_warm for those with a sign, okabe_ito for labels. All are made for the "
+          "colour-blind."),
+      param(&Params::scale_end, "scale_end", metres, within(0, 1000),
+            "Where the scale of distances ends; larger ones have its last colour. 0: the next round length (1, 2 or 5 "
+            "times "
+            "a power of ten) above the 95th percentile of the points that are drawn."),
+      param(&Params::point_size, "point_size", unitless, within(0, 50),
+            "Pixels; 0: as large as the points are apart on the surfaces, within 1/480 and 1/120 of the picture's "
+            "height."),
       param(&Params::perspective, "perspective", "Perspective instead of parallel projection."),
       param(&Params::ceilings, "ceilings",
             "Draw ceilings too, and every face from both sides: the building as it is seen from outside."),
@@ -98,8 +126,11 @@ struct Snapshot {
           "are looked into; not with `ceilings`."),
       param(&Params::edges, "edges", "Draw the outlines of faces."),
       param(&Params::legend, "legend", "Name the classes' colours."),
-      param(&Params::scale_bar, "scale_bar", "A bar of known length (parallel projection only)."),
+      param(&Params::scale_bar, "scale_bar",
+            "A bar of known length (parallel projection only), and the bar that explains colours."),
       param(&Params::title, "title", "Text at the top."),
+      param(&Params::text_size, "text_size", ratio, within(0.005, 0.1),
+            "Height of a line of text as a share of the picture's height: larger for pictures that will be shrunk."),
       param(&Params::background, "background", {{"white", Background::white}, {"black", Background::black}}, "")};
 
   static Out run(const In& in, const Params& params, Context& context);
