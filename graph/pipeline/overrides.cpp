@@ -3,6 +3,16 @@
 #include <fmt/format.h>
 
 namespace atrium {
+namespace {
+
+/// A list or a quoted text is read as in a file; all else, "[hall].ply" and "'t Hof.ply", too, is the text itself.
+bool is_yaml(std::string_view value) {
+  if (value.size() < 2) return false;
+  const char first = value.front(), last = value.back();
+  return (first == '[' && last == ']') || ((first == '"' || first == '\'') && last == first);
+}
+
+}  // namespace
 
 Overrides::Overrides(const std::vector<Override>& given, const SourceFile& root, Findings& findings) {
   overrides_.reserve(given.size());  // by_node_ points into it
@@ -38,7 +48,7 @@ void Overrides::add(const Override& given, const SourceFile& root, Findings& fin
   YamlNode node;
   node.kind = YamlNode::Kind::scalar;
   node.text = value;
-  if (value.starts_with('[') || value.starts_with('"') || value.starts_with('\'')) {
+  if (is_yaml(value)) {
     const YamlTree tree = parse_yaml(value);
     if (!tree.root || !tree.problems.empty()) {
       fail(fmt::format("'{}' cannot be read: {}", value, tree.problems.front().message), tree.problems.front().help);

@@ -141,6 +141,8 @@ Cloud decode_cloud(const RawGeometry& geometry, double scale, const Context& con
   decode_colours(geometry, cloud.colours, context);
   decode_intensities(geometry, cloud.intensities, context);
   decode_labels(geometry, cloud.labels, context);
+  decode_source(geometry, cloud.source, context);
+  for (const auto& sensor : geometry.sensors) cloud.sensors.emplace_back((sensor * scale - cloud.origin).cast<float>());
   if (kept != nullptr) *kept = others(cloud.size(), dropped);
   if (dropped.empty()) return cloud;
   const std::size_t left = cloud.size() - dropped.size();

@@ -19,7 +19,8 @@ Eigen::Vector3d choose_origin(const RawGeometry& geometry, double scale);
 
 /// The points with the columns that the file has, times `scale`. Points with a coordinate that is not finite are
 /// dropped and counted in a warning. Normals are brought to unit length; if any is zero or not finite, the column is
-/// left out and a warning says so. Colours of 16 bits or of 0 … 1 become 8 bits. Sensors are not set. Error if fewer
+/// left out and a warning says so. Colours of 16 bits or of 0 … 1 become 8 bits. Of sensors only those of
+/// geometry.sensors are set, with each point's source. Error if fewer
 /// than three points are left.
 /// kept: if given, gets the file's indices of the cloud's points, ascending.
 Cloud decode_cloud(const RawGeometry& geometry, double scale, const Context& context,

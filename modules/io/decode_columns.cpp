@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "graph/api/error.hpp"
+
 namespace atrium::io {
 namespace {
 
@@ -153,6 +155,23 @@ void decode_intensities(const RawGeometry& geometry, std::vector<float>& intensi
         each_number(geometry.column(Role::intensity), begin, end, [&](std::size_t i, double v) {
           constexpr double most = std::numeric_limits<float>::max();
           intensities[i] = std::abs(v) <= most ? static_cast<float>(v) : 0.0F;
+        });
+      },
+      chunk);
+}
+
+void decode_source(const RawGeometry& geometry, std::vector<std::uint16_t>& source, const Context& context) {
+  if (!geometry.column(Role::source) || geometry.sensors.empty()) return;
+  source.resize(geometry.count);
+  const auto sensors = static_cast<double>(geometry.sensors.size());
+  context.parallel_for(
+      geometry.count,
+      [&](std::size_t begin, std::size_t end) {
+        each_number(geometry.column(Role::source), begin, end, [&](std::size_t i, double v) {
+          if (!(v >= 0 && v < sensors) || v != std::floor(v))
+            throw Error(fmt::format("{}: the source of point {} is sensor {}, but there are {} sensors", geometry.path,
+                                    i, v, geometry.sensors.size()));
+          source[i] = static_cast<std::uint16_t>(v);
         });
       },
       chunk);

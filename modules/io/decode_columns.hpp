@@ -18,6 +18,8 @@ void decode_normals(const RawGeometry& geometry, const std::vector<std::uint32_t
 void decode_colours(const RawGeometry& geometry, std::vector<Colour>& colours, const Context& context);
 /// What is not finite becomes 0.
 void decode_intensities(const RawGeometry& geometry, std::vector<float>& intensities, const Context& context);
+/// Indices into geometry.sensors, if the file has such. Throws Error where one is out of range.
+void decode_source(const RawGeometry& geometry, std::vector<std::uint16_t>& source, const Context& context);
 /// Rounded to whole numbers, clamped to 32 bits; what is not finite becomes -1.
 void decode_labels(const RawGeometry& geometry, std::vector<std::int32_t>& labels, const Context& context);
 

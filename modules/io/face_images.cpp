@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
+#include <map>
 
 #include "graph/api/error.hpp"
+#include "modules/io/obj_groups.hpp"
 #include "modules/io/png_encoder.hpp"
 
 namespace atrium::io {
@@ -17,11 +18,12 @@ void check(const FaceTexture& face) {
   if (!sound) throw Error(fmt::format("the texture of primitive {} has no rectangle in space", face.primitive));
 }
 
-std::set<std::int32_t> structural_primitives(const Mesh& mesh) {
-  std::set<std::int32_t> result;
+/// The primitives of the mesh's structure and the class of each (of its first triangle).
+std::map<std::int32_t, SurfaceClass> structural_primitives(const Mesh& mesh) {
+  std::map<std::int32_t, SurfaceClass> result;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     if (!mesh.classes.empty() && !mesh.primitives.empty() && mesh.classes[t] != SurfaceClass::object)
-      result.insert(mesh.primitives[t]);
+      result.emplace(mesh.primitives[t], mesh.classes[t]);
   return result;
 }
 
@@ -38,6 +40,7 @@ FaceImages::FaceImages(const Textures& textures, const Mesh& mesh, const Context
     if (!images_.empty() && images_.back().primitive == face->primitive)
       throw Error(fmt::format("primitive {} has two textures", face->primitive));
     images_.push_back({face->primitive,
+                       group_name(wanted.at(face->primitive), face->primitive),
                        textures.origin - mesh.origin + face->corner,
                        face->across / face->across.squaredNorm(),
                        face->down / face->down.squaredNorm(),

@@ -21,6 +21,8 @@ class FaceImages {
   std::size_t size() const { return images_.size(); }
   /// The image of triangles of this class and primitive, or none.
   std::size_t find(SurfaceClass surface, std::int32_t primitive) const;
+  /// "wall_12": class and primitive.
+  const std::string& name(std::size_t image) const { return images_[image].name; }
   const std::vector<std::uint8_t>& png(std::size_t image) const { return images_[image].png; }
   /// Shares of the image's width from the left and of its height from the top.
   Eigen::Vector2d place(std::size_t image, const Eigen::Vector3d& vertex) const;
@@ -28,6 +30,7 @@ class FaceImages {
  private:
   struct Image {
     std::int32_t primitive;
+    std::string name;
     Eigen::Vector3d corner, across, down;  // in the mesh's coordinates; the sides divided by their squared lengths
     std::vector<std::uint8_t> png;
   };

@@ -10,7 +10,6 @@
 #include "modules/io/glb_buffer.hpp"
 #include "modules/io/glb_groups.hpp"
 #include "modules/io/mesh_writers.hpp"
-#include "modules/io/obj_groups.hpp"
 #include "modules/types/palette.hpp"
 
 namespace atrium::io {
@@ -138,7 +137,7 @@ class GlbModel {
   /// A photograph carries its light with it: unlit.
   int image_material(const GlbGroup& group, std::size_t image) {
     if (image_materials_[image] >= 0) return image_materials_[image];
-    const std::string name = group_name(group.surface, group.primitive);
+    const std::string& name = images_.name(image);
     if (model_.samplers.empty()) {
       tinygltf::Sampler sampler;
       sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;

@@ -19,10 +19,12 @@ Eigen::Vector3d normal_of(const Mesh& mesh, std::size_t triangle);
 void write_ply(const Mesh& mesh, bool binary, AtomicFile& file);
 
 /// OBJ: all digits of the coordinates with the origin added, vertex colours as x y z r g b; a group (see obj_groups)
-/// and a material per class and primitive, so faces are sorted by these. Storeys are not kept.
-void write_obj(const Mesh& mesh, const std::string& material_file, AtomicFile& file);
-/// The text of the material file that write_obj names.
-std::string obj_materials();
+/// and a material per class and primitive, so faces are sorted by these; texture coordinates (vt) where there is an
+/// image. Storeys are not kept.
+void write_obj(const Mesh& mesh, const FaceImages& images, const std::string& material_file, AtomicFile& file);
+/// The text of the material file that write_obj names: a material per class ("wall"), and one per image ("wall_12")
+/// that names the file image_prefix + "wall_12.png".
+std::string obj_materials(const FaceImages& images, const std::string& image_prefix);
 
 /// GLB (glTF 2.0 in one file); see WriteMesh for its form. Errors: more than 2 GiB.
 void write_glb(const Mesh& mesh, const FaceImages& images, AtomicFile& file);

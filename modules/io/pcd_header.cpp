@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
-#include "graph/api/error.hpp"
+#include "modules/io/header_lines.hpp"
 #include "modules/io/lines.hpp"
 
 namespace atrium::io {
@@ -12,11 +10,12 @@ namespace {
 
 class Parser {
  public:
-  explicit Parser(const MappedFile& file) : file_(file) {}
+  explicit Parser(const MappedFile& file)
+      : lines_(file, "\n", "the header ends without a line 'DATA' (truncated, or not a PCD file?)") {}
 
   PcdHeader parse() {
     for (bool more = true; more;) {
-      std::string_view line = next_line();
+      std::string_view line = lines_.next();
       if (line.starts_with('#')) continue;
       const std::string_view keyword = next_token(line);
       if (!keyword.empty()) more = read(keyword, line);
@@ -26,31 +25,10 @@ class Parser {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw Error(fmt::format("{}:{}: {}", file_.path(), line_, what));
-  }
-
-  std::string_view next_line() {
-    const std::string_view rest = file_.text().substr(position_);
-    const std::size_t length = rest.find('\n');
-    ++line_;
-    if (length == std::string_view::npos) fail("the header ends without a line 'DATA' (truncated, or not a PCD file?)");
-    position_ += length + 1;
-    return rest.substr(0, length);
-  }
-
   static std::vector<std::string_view> tokens(std::string_view line) {
     std::vector<std::string_view> all;
     for (auto t = next_token(line); !t.empty(); t = next_token(line)) all.push_back(t);
     return all;
-  }
-
-  std::uint64_t whole(std::string_view token) const {
-    std::uint64_t value = 0;
-    const auto [stop, error] = std::from_chars(token.data(), token.data() + token.size(), value);
-    if (error != std::errc{} || stop != token.data() + token.size() || token.empty())
-      fail(quote(token) + " is not a whole number");
-    return value;
   }
 
   /// False after the last line of the header.
@@ -58,7 +36,7 @@ class Parser {
     const auto values = tokens(line);
     if (keyword == "VERSION") return true;
     if (keyword == "DATA") return read_data(values);
-    if (values.empty()) fail(quote(keyword) + " without values");
+    if (values.empty()) lines_.fail(quote(keyword) + " without values");
     if (keyword == "FIELDS" || keyword == "COLUMNS")
       names_.assign(values.begin(), values.end());
     else if (keyword == "SIZE")
@@ -68,30 +46,31 @@ class Parser {
     else if (keyword == "TYPE")
       types_.assign(values.begin(), values.end());
     else if (keyword == "WIDTH")
-      width_ = whole(values[0]);
+      width_ = lines_.whole(values[0]);
     else if (keyword == "HEIGHT")
-      height_ = whole(values[0]);
+      height_ = lines_.whole(values[0]);
     else if (keyword == "POINTS")
-      points_ = whole(values[0]);
+      points_ = lines_.whole(values[0]);
     else if (keyword == "VIEWPOINT")
       read_viewpoint(values);
     else
-      fail("unknown keyword " + quote(keyword) + " (not a PCD file?)");
+      lines_.fail("unknown keyword " + quote(keyword) + " (not a PCD file?)");
     return true;
   }
 
   std::vector<std::uint64_t> wholes(const std::vector<std::string_view>& values) const {
     std::vector<std::uint64_t> result;
     result.reserve(values.size());
-    for (const auto v : values) result.push_back(whole(v));
+    for (const auto v : values) result.push_back(lines_.whole(v));
     return result;
   }
 
   void read_viewpoint(const std::vector<std::string_view>& values) {
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
-    if (values.size() != 7) fail("VIEWPOINT has 7 numbers: tx ty tz qw qx qy qz");
+    if (values.size() != 7) lines_.fail("VIEWPOINT has 7 numbers: tx ty tz qw qx qy qz");
     for (std::size_t a = 0; a < 3; ++a)
-      if (!parse_number(values[a], place[static_cast<Eigen::Index>(a)])) fail(quote(values[a]) + " is not a number");
+      if (!parse_number(values[a], place[static_cast<Eigen::Index>(a)]))
+        lines_.fail(quote(values[a]) + " is not a number");
     header_.viewpoint = place;
   }
 
@@ -104,7 +83,7 @@ class Parser {
     else if (kind == "binary_compressed")
       header_.data = PcdHeader::Data::compressed;
     else
-      fail("unknown DATA " + quote(kind) + "; known: ascii, binary, binary_compressed");
+      lines_.fail("unknown DATA " + quote(kind) + "; known: ascii, binary, binary_compressed");
     return false;
   }
 
@@ -115,41 +94,41 @@ class Parser {
                                     {Scalar::u8, Scalar::u16, Scalar::u32, Scalar::u64}};
     for (int k = 0; k < 4; ++k)
       if (size == std::uint64_t{1} << k && (type == "I" || type == "U")) return table[type == "I" ? 0 : 1][k];
-    fail(fmt::format("a field of TYPE {} and SIZE {}; there are I and U of 1, 2, 4, 8 bytes and F of 4, 8", quote(type),
-                     size));
+    lines_.fail(fmt::format("a field of TYPE {} and SIZE {}; there are I and U of 1, 2, 4, 8 bytes and F of 4, 8",
+                            quote(type), size));
   }
 
   void finish() {
     const std::size_t n = names_.size();
-    if (n == 0) fail("the header has no line 'FIELDS'");
+    if (n == 0) lines_.fail("the header has no line 'FIELDS'");
     if (sizes_.empty()) sizes_.assign(n, 4);
     if (types_.empty()) types_.assign(n, "F");
     if (counts_.empty()) counts_.assign(n, 1);
     if (sizes_.size() != n || types_.size() != n || counts_.size() != n)
-      fail(
+      lines_.fail(
           fmt::format("{} FIELDS, but {} SIZE, {} TYPE and {} COUNT", n, sizes_.size(), types_.size(), counts_.size()));
     for (std::size_t i = 0; i < n; ++i) {
-      if (counts_[i] > 65536) fail(fmt::format("the field {} has a COUNT of {}", quote(names_[i]), counts_[i]));
+      if (counts_[i] > 65536) lines_.fail(fmt::format("the field {} has a COUNT of {}", quote(names_[i]), counts_[i]));
       header_.fields.push_back({std::string(names_[i]), scalar(types_[i], sizes_[i]), counts_[i], header_.record});
       header_.record += header_.fields.back().size();
     }
     count_points();
-    header_.body = position_;
-    header_.lines = line_;
+    header_.body = lines_.position();
+    header_.lines = lines_.count();
   }
 
   void count_points() {
     header_.height = height_.value_or(1);
-    if (!width_ && !points_) fail("the header has neither WIDTH nor POINTS");
+    if (!width_ && !points_) lines_.fail("the header has neither WIDTH nor POINTS");
     header_.width = width_ ? *width_ : *points_;
     const auto product = static_cast<unsigned __int128>(header_.width) * header_.height;
     header_.points = points_.value_or(header_.width * header_.height);
     if (product != header_.points)
-      fail(fmt::format("WIDTH {} times HEIGHT {} are not POINTS {}", header_.width, header_.height, header_.points));
+      lines_.fail(
+          fmt::format("WIDTH {} times HEIGHT {} are not POINTS {}", header_.width, header_.height, header_.points));
   }
 
-  const MappedFile& file_;
-  std::size_t position_ = 0, line_ = 0;
+  HeaderLines lines_;
   std::vector<std::string_view> names_, types_;
   std::vector<std::uint64_t> sizes_, counts_;
   std::optional<std::uint64_t> width_, height_, points_;

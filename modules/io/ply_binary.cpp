@@ -28,6 +28,8 @@ class BinaryBody {
       read_vertices(element);
     else if (element.name == "face")
       read_faces(element);
+    else if (is_sensors(file_.path(), element))
+      read_sensors(element);
     else if (element.name == "camera" && !element.has_lists() && element.count > 0)
       read_camera(element);
     else if (element.has_lists())
@@ -127,6 +129,16 @@ class BinaryBody {
     if (has[0] && has[1] && has[2]) geometry_.viewpoint = place;
   }
 
+  void read_sensors(const PlyElement& element) {
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    walk(
+        element,
+        [&](std::size_t p, double v) {
+          if (const int axis = sensor_axis(element.properties[p]); axis >= 0) place[axis] = v;
+        },
+        [&](std::uint64_t) { geometry_.sensors.push_back(place); });
+  }
+
   void read_corners(const PlyProperty& property, const PlyElement& element, std::uint64_t index,
                     std::vector<std::uint32_t>& corners) {
     const std::uint64_t count = take_count(property, element, index);
@@ -190,28 +202,6 @@ class BinaryBody {
 void read_ply_binary(const MappedFile& file, const PlyHeader& header, RawGeometry& geometry) {
   BinaryBody body(file, header, geometry);
   for (const auto& element : header.elements) body.read(element);
-}
-
-std::vector<Role> roles_of(const PlyElement& element) {
-  std::vector<Role> roles;
-  for (const auto& p : element.properties) {
-    Role role = p.is_list() ? Role::none : role_of(p.name);
-    // Only PCD packs colours into one number.
-    if (role == Role::packed_colour || std::find(roles.begin(), roles.end(), role) != roles.end()) role = Role::none;
-    roles.push_back(role);
-  }
-  return roles;
-}
-
-bool is_corner_list(const PlyProperty& property) {
-  return property.is_list() && (property.name == "vertex_indices" || property.name == "vertex_index");
-}
-
-int viewpoint_axis(const PlyProperty& property) {
-  if (property.is_list()) return -1;
-  if (property.name == "view_px") return 0;
-  if (property.name == "view_py") return 1;
-  return property.name == "view_pz" ? 2 : -1;
 }
 
 }  // namespace atrium::io

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "graph/api/error.hpp"
+#include "modules/io/header_lines.hpp"
 #include "modules/io/lines.hpp"
 
 namespace atrium::io {
@@ -22,18 +23,14 @@ constexpr std::pair<std::string_view, Scalar> type_names[] = {
 /// Reads the header line by line.
 class Parser {
  public:
-  explicit Parser(const MappedFile& file) : file_(file) {
-    const std::string_view text = file.text();
-    if (!text.starts_with("ply") || text.size() < 4 || (text[3] != '\n' && text[3] != '\r'))
-      throw Error(file.path() + ": not a PLY file: its first line is not 'ply'");
-    end_ = text[3] == '\n' ? "\n" : text.substr(3).starts_with("\r\n") ? "\r\n" : "\r";
-  }
+  explicit Parser(const MappedFile& file)
+      : lines_(file, line_end_of(file), "the header ends without 'end_header' (truncated?)") {}
 
   PlyHeader parse() {
     bool has_format = false;
-    next_line();
+    lines_.next();
     for (;;) {
-      std::string_view line = next_line();
+      std::string_view line = lines_.next();
       const std::string_view keyword = next_token(line);
       if (keyword == "end_header") break;
       if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) continue;
@@ -44,26 +41,20 @@ class Parser {
       else if (keyword == "property")
         read_property(line);
       else
-        fail("unknown keyword " + quote(keyword));
+        lines_.fail("unknown keyword " + quote(keyword));
     }
-    if (!has_format) fail("the header has no line 'format'");
-    header_.body = position_;
-    header_.lines = line_;
+    if (!has_format) lines_.fail("the header has no line 'format'");
+    header_.body = lines_.position();
+    header_.lines = lines_.count();
     return std::move(header_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw Error(fmt::format("{}:{}: {}", file_.path(), line_, what));
-  }
-
-  std::string_view next_line() {
-    const std::string_view rest = file_.text().substr(position_);
-    const std::size_t length = rest.find(end_);
-    ++line_;
-    if (length == std::string_view::npos) fail("the header ends without 'end_header' (truncated?)");
-    position_ += length + end_.size();
-    return rest.substr(0, length);
+  static std::string_view line_end_of(const MappedFile& file) {
+    const std::string_view text = file.text();
+    if (!text.starts_with("ply") || text.size() < 4 || (text[3] != '\n' && text[3] != '\r'))
+      throw Error(file.path() + ": not a PLY file: its first line is not 'ply'");
+    return text[3] == '\n' ? "\n" : text.substr(3).starts_with("\r\n") ? "\r\n" : "\r";
   }
 
   bool read_format(std::string_view line) {
@@ -75,7 +66,7 @@ class Parser {
     else if (name == "binary_big_endian")
       header_.format = PlyHeader::Format::big_endian;
     else
-      fail("unknown format " + quote(name) + "; known: ascii, binary_little_endian, binary_big_endian");
+      lines_.fail("unknown format " + quote(name) + "; known: ascii, binary_little_endian, binary_big_endian");
     return true;
   }
 
@@ -85,9 +76,9 @@ class Parser {
     const std::string_view count = next_token(line);
     const auto [stop, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (element.name.empty() || error != std::errc{} || stop != count.data() + count.size())
-      fail("an element needs a name and a count: 'element vertex 1000', not " + quote(count) + " as count");
+      lines_.fail("an element needs a name and a count: 'element vertex 1000', not " + quote(count) + " as count");
     for (const auto& other : header_.elements)
-      if (other.name == element.name) fail("the element " + quote(element.name) + " is declared twice");
+      if (other.name == element.name) lines_.fail("the element " + quote(element.name) + " is declared twice");
     header_.elements.push_back(std::move(element));
   }
 
@@ -95,27 +86,25 @@ class Parser {
     const std::string_view name = next_token(line);
     for (const auto& [known, type] : type_names)
       if (known == name) return type;
-    fail("unknown property type " + quote(name));
+    lines_.fail("unknown property type " + quote(name));
   }
 
   void read_property(std::string_view line) {
-    if (header_.elements.empty()) fail("a property before the first element");
+    if (header_.elements.empty()) lines_.fail("a property before the first element");
     PlyProperty property;
     std::string_view ahead = line;
     if (next_token(ahead) == "list") {
       line = ahead;
       property.count_type = read_type(line);
-      if (is_floating(property.count_type)) fail("the length of a list cannot be a floating-point number");
+      if (is_floating(property.count_type)) lines_.fail("the length of a list cannot be a floating-point number");
     }
     property.type = read_type(line);
     property.name = next_token(line);
-    if (property.name.empty()) fail("a property without a name");
+    if (property.name.empty()) lines_.fail("a property without a name");
     header_.elements.back().properties.push_back(std::move(property));
   }
 
-  const MappedFile& file_;
-  std::string_view end_;
-  std::size_t position_ = 0, line_ = 0;
+  HeaderLines lines_;
   PlyHeader header_;
 };
 

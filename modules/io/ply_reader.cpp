@@ -32,6 +32,9 @@ RawGeometry read_ply(const std::shared_ptr<const MappedFile>& file, const Contex
     read_ply_text(*file, header, geometry, context);
   else
     read_ply_binary(*file, header, geometry);
+  for (std::size_t i = 0; i < geometry.sensors.size(); ++i)
+    if (!geometry.sensors[i].allFinite())
+      throw Error(fmt::format("{}: the place of sensor {} is not finite", geometry.path, i));
   if (geometry.count > 0) require_position(geometry, names_of(*vertex));
   return geometry;
 }

@@ -7,8 +7,9 @@ namespace atrium::io {
 
 /// Reads a PLY file of any format, with any properties in any order, with or without faces. Polygons become fans of
 /// triangles. Elements, properties and lists that are not known are skipped. The properties `class`, `storey` and
-/// `primitive` of faces are kept; an element `camera` (view_px, view_py, view_pz) gives the viewpoint. Throws Error
-/// with line (ascii) or byte offset (binary).
+/// `primitive` of faces are kept; an element `camera` (view_px, view_py, view_pz) gives the viewpoint, an element
+/// `sensor` (x, y, z) several of them, of which the vertices' `source` names one. Throws Error with line (ascii) or
+/// byte offset (binary).
 RawGeometry read_ply(const std::shared_ptr<const MappedFile>& file, const Context& context);
 
 }  // namespace atrium::io

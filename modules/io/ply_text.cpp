@@ -122,6 +122,18 @@ struct TextBody {
     });
   }
 
+  void read_sensors(const PlyElement& element, std::size_t first) const {
+    geometry.sensors.resize(element.count);
+    lines.for_rows(first, first + element.count, context, [&](std::size_t, const Row& row) {
+      RowReader reader(file.path(), element, row);
+      for (const auto& property : element.properties) {
+        const double v = reader.number(property);
+        if (const int axis = sensor_axis(property); axis >= 0) geometry.sensors[row.index - first][axis] = v;
+      }
+      reader.finish();
+    });
+  }
+
   static void skip_list(RowReader& reader, const PlyProperty& property) {
     for (std::size_t n = reader.list_length(property); n > 0; --n) reader.number(property);
   }
@@ -145,6 +157,8 @@ void read_ply_text(const MappedFile& file, const PlyHeader& header, RawGeometry&
       body.read_vertices(element, first);
     else if (element.name == "face")
       body.read_faces(element, first);
+    else if (is_sensors(file.path(), element))
+      body.read_sensors(element, first);
     else if (element.name == "camera" && !element.has_lists() && element.count > 0)
       body.read_camera(element, first);
     first += element.count;

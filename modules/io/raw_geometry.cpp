@@ -37,6 +37,7 @@ constexpr std::pair<std::string_view, Role> names[] = {
     {"label", Role::label},
     {"class", Role::label},
     {"classification", Role::label},
+    {"source", Role::source},
 };
 
 }  // namespace

@@ -26,6 +26,7 @@ enum class Role : std::uint8_t {
   packed_colour,
   intensity,
   label,
+  source,
   none  // `none` is also the number of roles
 };
 inline constexpr std::size_t role_count = static_cast<std::size_t>(Role::none);
@@ -53,6 +54,7 @@ struct RawGeometry {
   std::vector<std::int32_t> classes, storeys, primitives;  ///< per triangle, or empty
   std::size_t skipped_faces = 0;                           ///< faces of fewer than three corners
   std::optional<Eigen::Vector3d> viewpoint;                ///< sensor's place if the file states one, in its units
+  std::vector<Eigen::Vector3d> sensors;                    ///< several of them; the column `source` is an index here
   bool organised = false;  ///< an image of points: rows and columns of one shot of a depth camera
   std::vector<std::shared_ptr<const void>> storage;  ///< what the columns point into
 

@@ -11,6 +11,9 @@ namespace atrium::io {
 namespace {
 
 void set_sensor(const RawGeometry& geometry, const ReadScan::Params& params, Cloud& cloud) {
+  if (params.sensor == ReadScan::SensorUse::automatic && !cloud.sensors.empty()) return;  // several, with sources
+  cloud.sensors.clear();
+  cloud.source.clear();
   std::optional<Eigen::Vector3d> place;
   if (params.sensor == ReadScan::SensorUse::origin) place = Eigen::Vector3d::Zero();
   if (params.sensor == ReadScan::SensorUse::automatic) {

@@ -49,8 +49,8 @@ struct ReadScan {
             "Number of samples of a mesh; 0: as many as it has vertices."),
       param(&Params::sensor, "sensor",
             {{"auto", SensorUse::automatic}, {"origin", SensorUse::origin}, {"none", SensorUse::none}},
-            "Where the scanner stood, if it was in one place. auto: where the file says (VIEWPOINT of PCD, camera of "
-            "PLY), "
+            "Where the scanner stood. auto: where the file says (VIEWPOINT of PCD, camera of PLY; several places as "
+            "io.write_cloud writes them to PLY), "
             "if that is not the all-zero default, which exported clouds have too; the file's origin if the points are "
             "one "
             "depth image (PCD with a height above 1). origin: the file's origin. none: not known.")};

@@ -29,23 +29,28 @@ std::string_view ply_type(Scalar type) {
 
 void write_ply(const Cloud& cloud, bool binary, ByteBuffer& out) {
   const auto columns = columns_of(cloud, false);
-  const auto sensor = single_sensor(cloud);
   const char* format = !binary                                      ? "ascii"
                        : std::endian::native == std::endian::little ? "binary_little_endian"
                                                                     : "binary_big_endian";
   out.text(fmt::format("ply\nformat {} 1.0\ncomment Atrium; metres\nelement vertex {}\n", format, cloud.size()));
   for (const auto& column : columns) out.text(fmt::format("property {} {}\n", ply_type(column.type), column.name));
-  if (sensor) out.text("element camera 1\nproperty double view_px\nproperty double view_py\nproperty double view_pz\n");
+  if (cloud.sensors.size() == 1)
+    out.text("element camera 1\nproperty double view_px\nproperty double view_py\nproperty double view_pz\n");
+  const std::size_t several = cloud.sensors.size() > 1 ? cloud.sensors.size() : 0;
+  if (several > 0)
+    out.text(fmt::format("element sensor {}\nproperty double x\nproperty double y\nproperty double z\n", several));
   out.text("end_header\n");
   if (binary)
     write_records(columns, cloud.size(), out);
   else
     write_lines(columns, cloud.size(), ' ', out);
-  if (!sensor) return;
-  if (binary)
-    for (int a = 0; a < 3; ++a) out.number((*sensor)[a]);
-  else
-    out.text(fmt::format("{} {} {}\n", sensor->x(), sensor->y(), sensor->z()));
+  for (const auto& local : cloud.sensors) {
+    const Eigen::Vector3d place = cloud.origin + local.cast<double>();
+    if (binary)
+      for (int a = 0; a < 3; ++a) out.number(place[a]);
+    else
+      out.text(fmt::format("{} {} {}\n", place.x(), place.y(), place.z()));
+  }
 }
 
 void write_pcd(const Cloud& cloud, bool binary, ByteBuffer& out) {
@@ -89,7 +94,7 @@ WriteCloud::Out WriteCloud::run(const In& in, const Params& params, Context& con
   if (!text && extension != ".ply" && extension != ".pcd")
     throw Error("cannot write a cloud as '" + params.path.path + "'", "known extensions: .ply, .pcd, .xyz, .txt, .csv");
   if (cloud.points.empty()) context.warn("the cloud is empty: " + params.path.path + " has no points");
-  if (cloud.sensors.size() > 1 || (text && !cloud.sensors.empty()))
+  if ((extension != ".ply" && cloud.sensors.size() > 1) || (text && !cloud.sensors.empty()))
     context.warn(fmt::format("{}: the places of the {} sensors are not kept by this format", params.path.path,
                              cloud.sensors.size()));
   const auto target = context.output(params.path.path);

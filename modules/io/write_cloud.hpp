@@ -10,8 +10,9 @@ namespace atrium::io {
 ///
 /// Coordinates are float32 while the cloud's origin is 0, else double, so that georeferenced clouds keep their
 /// millimetres (PCL's loaders want float32 in PCD). Colours are red, green, blue bytes (PCD: packed `rgb`), labels
-/// int32, `source` ushort. One sensor is written as PCD's VIEWPOINT or PLY's element `camera`; of several, and in text,
-/// the places are not kept, with a warning.
+/// int32, `source` ushort. One sensor is written as PCD's VIEWPOINT or PLY's element `camera`; several as PLY's element
+/// `sensor` (double x, y, z) after the vertices, of which each vertex's `source` is the index: io.read_scan reads them
+/// back, other programs pass over them. In PCD several, and in text any sensors' places are not kept, with a warning.
 ///
 /// Errors: unknown extension, a folder that cannot be written; then no file is there. An empty cloud gives a valid file
 /// without points, and a warning.

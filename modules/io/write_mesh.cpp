@@ -6,16 +6,25 @@
 namespace atrium::io {
 namespace {
 
-void write_obj_pair(const Mesh& mesh, const std::filesystem::path& target, const Context& context) {
+/// The .obj comes last: once it is there, so is all that it names.
+void write_obj_files(const Mesh& mesh, const FaceImages& images, const std::filesystem::path& target,
+                     const Context& context) {
+  AtomicFile file(target);
   std::filesystem::path materials = target;
   materials.replace_extension(".mtl");
-  AtomicFile file(target);
-  write_obj(mesh, materials.filename().string(), file);
+  const std::string prefix = target.stem().string() + "_";
+  write_obj(mesh, images, materials.filename().string(), file);
+  const auto write = [&](const std::filesystem::path& path, const void* data, std::size_t size) {
+    AtomicFile beside(path);
+    beside.write(data, size);
+    beside.commit();
+    context.wrote(path);
+  };
+  for (std::size_t i = 0; i < images.size(); ++i)
+    write(target.parent_path() / (prefix + images.name(i) + ".png"), images.png(i).data(), images.png(i).size());
   if (!mesh.classes.empty()) {
-    AtomicFile second(materials);
-    second.write(obj_materials());
-    second.commit();
-    context.wrote(materials);
+    const std::string text = obj_materials(images, prefix);
+    write(materials, text.data(), text.size());
   }
   file.commit();
 }
@@ -41,13 +50,13 @@ WriteMesh::Out WriteMesh::run(const In& in, const Params& params, Context& conte
   check_mesh(*in.mesh);
   if (in.mesh->triangles.empty()) context.warn("the mesh is empty: " + params.path.path + " has no faces");
   FaceImages images;
-  if (in.textures && extension == ".glb")
+  if (in.textures && (extension == ".glb" || extension == ".obj"))
     images = FaceImages(*in.textures, *in.mesh, context);
   else if (in.textures)
-    context.warn("textures are not written to " + extension + " files, only to .glb");
+    context.warn("textures are not written to " + extension + " files, only to .glb and .obj");
   const auto target = context.output(params.path.path);
   if (extension == ".obj")
-    write_obj_pair(*in.mesh, target, context);
+    write_obj_files(*in.mesh, images, target, context);
   else
     write_one(*in.mesh, images, extension, params.binary, target);
   context.wrote(target);

@@ -10,8 +10,9 @@ namespace atrium::io {
 ///
 /// .ply keeps everything: double coordinates, vertex colours, and per face `class` (0 object, 1 wall, 2 floor, 3
 /// ceiling), `storey` and `primitive`, with the class's colour so that any viewer shows it. .obj keeps classes and
-/// primitives as groups ("g wall_12") with a material of the class's colour in a .mtl file beside it. .stl keeps
-/// triangles only; its binary form has float32, so a mesh further than 8192 m from zero is refused there.
+/// primitives as groups ("g wall_12") with a material of the class's colour in a .mtl file beside it; the images of
+/// `textures` are files beside it, too: scene_wall_12.png of scene.obj. .stl keeps triangles only; its binary form has
+/// float32, so a mesh further than 8192 m from zero is refused there.
 ///
 /// .glb (glTF 2.0) is for viewers and modelling programs: metres, y up (x, y, z of the mesh's frame stand as x, z, −y),
 /// a named node and mesh per class and storey ("wall, storey 0"; "object"), in it a glTF primitive per source primitive
@@ -39,7 +40,7 @@ struct WriteMesh {
     bool binary = true;
   };
   static constexpr auto inputs = std::tuple{port(&In::mesh, "mesh", "What to write."),
-                                            port(&In::textures, "textures", "Images of its faces, for .glb.")};
+                                            port(&In::textures, "textures", "Images of its faces, for .glb and .obj.")};
   static constexpr auto outputs = std::tuple{};
   static constexpr auto params =
       std::tuple{param(&Params::path, "path",

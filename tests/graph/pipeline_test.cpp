@@ -132,6 +132,22 @@ outputs: {cloud: read.cloud}
     EXPECT_EQ(value(result.pipeline, path, "path"), ParamValue(text(folder.path() / "here/mine.ply")));
 }
 
+TEST_F(PipelineFile, TakesNamesThatBeginWithABracketOrAQuoteFromTheCommandLine) {
+  const auto file = folder.write("p.yaml", R"(atrium: 1
+vars: {scan: }
+nodes:
+  read: {type: test.read, params: {path: "${scan}"}}
+outputs: {cloud: read.cloud}
+)");
+  for (const std::string name : {"[hall] 1.ply", "'t Hof.ply", "\"a\".ply", "[all]"}) {
+    const auto scan = folder.write(name, "");
+    const std::string given = name == "[all]" ? "\"[all]\"" : name;  // what would be a list is put in quotes
+    const LoadResult result = load_pipeline(file, {{"scan=" + given, "here", folder.path()}}, registry);
+    ASSERT_TRUE(result.errors.empty()) << messages(result);
+    EXPECT_EQ(value(result.pipeline, "read", "path"), ParamValue(text(scan)));
+  }
+}
+
 TEST_F(PipelineFile, OpensSubPipelines) {
   folder.write("refine.yaml", R"(atrium: 1
 vars: {title: inner, unit: 3 cm}

@@ -84,6 +84,60 @@ TEST_F(CloudFiles, KeepsOneSensorAndSaysWhenItCannot) {
   EXPECT_TRUE(warned("places of the 1 sensors"));
 }
 
+TEST_F(CloudFiles, PlyKeepsWhereEachPointWasSeenFrom) {
+  Cloud cloud = sample(40, 2, {500000, 5400000, 0});
+  cloud.sensors = {{1, 2, 3}, {-4, 5, 1.5}, {0, 0.25, 1}};
+  for (std::size_t i = 0; i < cloud.size(); ++i) cloud.source.push_back(static_cast<std::uint16_t>(i * 7 % 3));
+  for (const bool binary : {false, true}) {
+    const Cloud back = round_trip(cloud, "s.ply", binary);
+    EXPECT_EQ(back.source, cloud.source);
+    EXPECT_EQ(back.colours, cloud.colours);
+    ASSERT_EQ(back.sensors.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_LT((back.origin + back.sensors[i].cast<double>() - cloud.origin - cloud.sensors[i].cast<double>()).norm(),
+                1e-4);
+  }
+  EXPECT_TRUE(host->warnings.empty()) << warnings();
+  ReadScan::Params params;
+  params.path.path = path("s.ply");
+  params.sensor = ReadScan::SensorUse::none;
+  const Cloud none = ReadScan::run({}, params, context).cloud;
+  EXPECT_TRUE(none.sensors.empty() && none.source.empty());
+  params.sensor = ReadScan::SensorUse::origin;
+  const Cloud one = ReadScan::run({}, params, context).cloud;
+  EXPECT_EQ(one.sensors.size(), 1U);
+  EXPECT_TRUE(one.source.empty());
+  params.sensor = ReadScan::SensorUse::automatic;
+  params.scale = 0.001;
+  const Cloud small = ReadScan::run({}, params, context).cloud;
+  EXPECT_NEAR(small.origin.x() + small.sensors.at(1).x(), 499.996, 1e-4);
+  round_trip(cloud, "s.pcd", true);
+  EXPECT_TRUE(warned("places of the 3 sensors"));
+}
+
+TEST_F(CloudFiles, SensorsThatMakeNoSenseAreRefusedAndThoseOfOthersSkipped) {
+  const auto ply = [](const std::string& sensor, const std::string& rows, const std::string& sources) {
+    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty "
+           "int "
+           "source\n" +
+           sensor + "end_header\n0 0 0 " + sources[0] + "\n1 0 0 " + sources[1] + "\n0 1 0 " + sources[2] + "\n" + rows;
+  };
+  const auto read = [&](const std::string& text) {
+    ReadScan::Params params;
+    params.path.path = file("s.ply", text);
+    return ReadScan::run({}, params, context).cloud;
+  };
+  const std::string two = "element sensor 2\nproperty float x\nproperty float y\nproperty float z\n";
+  EXPECT_EQ(read(ply(two, "0 0 1\n1 1 1\n", "010")).source, (std::vector<std::uint16_t>{0, 1, 0}));
+  EXPECT_CONTAINS(error_of([&] { read(ply(two, "0 0 1\n1 1 1\n", "012")); }),
+                  "the source of point 2 is sensor 2, but there are 2 sensors");
+  EXPECT_CONTAINS(error_of([&] { read(ply(two, "0 0 1\n1 nan 1\n", "010")); }), "the place of sensor 1 is not finite");
+  EXPECT_CONTAINS(error_of([&] { read(ply(two, "0 0 1\n", "010")); }), "truncated");
+  const Cloud other = read(ply("element sensor 1\nproperty int serial\n", "77\n", "019"));
+  EXPECT_TRUE(other.sensors.empty() && other.source.empty());
+  EXPECT_TRUE(read(ply("", "", "019")).source.empty());
+}
+
 TEST_F(CloudFiles, AnEmptyCloudIsAValidFileWithAWarning) {
   for (const std::string name : {"e.ply", "e.pcd", "e.csv"}) {
     host->warnings.clear();

@@ -241,6 +241,23 @@ TEST_F(GlbFiles, TexturesLieWhereTheirRectanglesAre) {
   EXPECT_EQ(textured, 1);
 }
 
+TEST_F(GlbFiles, ObjNamesTheSameImages) {
+  Textures textures;
+  textures.faces.push_back(slope(2, {-0.5, 3, 3}, {5, 0, 0}, {0, 0, -3.5}));
+  WriteMesh::run({input(two_storeys()), input(textures)}, {{"m.obj"}, true}, context);
+  const auto model = write(two_storeys(), "m.glb", &textures);
+  const auto& view = model.bufferViews.at(model.images.at(0).bufferView);
+  const auto* png = reinterpret_cast<const char*>(model.buffers.at(0).data.data() + view.byteOffset);
+  EXPECT_EQ(content("m_wall_2.png"), std::string(png, view.byteLength));
+  EXPECT_CONTAINS(content("m.mtl"), "newmtl wall_2\nKd 1 1 1\nillum 0\nmap_Kd -clamp on m_wall_2.png\n");
+  const std::string obj = content("m.obj");
+  // The wall's first corner is (0, 3, 0): 0.5 m of 5 m from the left, 0.5 m of 3.5 m from below.
+  EXPECT_CONTAINS(obj, "g wall_2\nusemtl wall_2\nvt 0.1 0.1428571\n");
+  EXPECT_CONTAINS(obj, "\nf 9/1 10/2 11/3\n");
+  EXPECT_CONTAINS(obj, "g wall_3\nusemtl wall\nf ");
+  EXPECT_TRUE(host->warnings.empty()) << warnings();
+}
+
 TEST_F(GlbFiles, GeoreferencedModelsStandNearZeroAndSayWhereTheyBelong) {
   Mesh mesh = two_storeys();
   mesh.origin = {500000.125, 5400000.25, 40};

@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "modules/io/mapped_file.hpp"
+
+namespace atrium::io {
+
+/// Walks the lines of a text header before binary data, and names the line in errors.
+class HeaderLines {
+ public:
+  /// `line_end`: as it stands in the file. `missing`: what the Error says if the file ends before the header does.
+  HeaderLines(const MappedFile& file, std::string_view line_end, std::string missing)
+      : file_(file), line_end_(line_end), missing_(std::move(missing)) {}
+
+  /// The next line without its end.
+  std::string_view next();
+  std::size_t position() const { return position_; }  ///< byte behind the last line
+  std::size_t count() const { return count_; }        ///< lines read so far
+  /// Throws Error: path, line, what.
+  [[noreturn]] void fail(const std::string& what) const;
+  /// The token as a whole number; fails if it is none.
+  std::uint64_t whole(std::string_view token) const;
+
+ private:
+  const MappedFile& file_;
+  std::string_view line_end_;
+  std::string missing_;
+  std::size_t position_ = 0, count_ = 0;
+};
+
+}  // namespace atrium::io
