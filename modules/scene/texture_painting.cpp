@@ -13,7 +13,8 @@ constexpr float reaches = 5.0F;         // how far in front points hide the plan
 constexpr float layer_share = 0.25F;    // standard deviation of a layer's thickness, in distances
 constexpr float tile_size = 0.04F;      // over which a layer is level, metres
 constexpr float least_cosine = 0.5F;    // of a point's normal to the plane's
-constexpr float support = 4;            // neighbours in the layer that a point needs to be believed
+constexpr float least_support = 4;      // neighbours in the layer that a point needs to be believed
+constexpr float support_share = 0.05F;  // and as a share of what is usual on this plane
 constexpr float visible_share = 0.33F;  // a pixel with less of its points in the layer is covered
 
 /// Height of the layer that is nearest to the plane, over square tiles.
@@ -86,6 +87,15 @@ std::vector<float> around(const std::vector<float>& values, int columns) {
   return add_neighbours(add_neighbours(values, 1, true), columns, false);
 }
 
+/// How many neighbours make points believed: few where the whole plane is sparse.
+float support_of(std::vector<float> near) {
+  near.erase(std::remove_if(near.begin(), near.end(), [](float n) { return n < 1; }), near.end());
+  if (near.empty()) return least_support;
+  const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
+  std::nth_element(near.begin(), middle, near.end());
+  return std::max(least_support, support_share * *middle);
+}
+
 /// Sums become means. A pixel is doubted where the plane is covered and where it has few neighbours.
 void normalise(WeightedImage& image, const std::vector<float>& all, const Layers& layers,
                const std::vector<float>& near) {
@@ -93,6 +103,7 @@ void normalise(WeightedImage& image, const std::vector<float>& all, const Layers
   in_layer.reserve(image.pixels.size());
   for (const auto& pixel : image.pixels) in_layer.push_back(pixel[3]);
   const auto layer_around = around(in_layer, image.width), all_around = around(all, image.width);
+  const float support = support_of(near);
   image.confidence.resize(image.pixels.size());
   std::size_t i = 0;
   for (int y = 0; y < image.height; ++y)
