@@ -92,6 +92,12 @@ Region seen_from_above(const std::vector<Surface>& surfaces) {
   return closed(united(rings), abutting);
 }
 
+Region ground_of(const PlanStorey& storey, RoomExtent extent) {
+  if (storey.floors.empty()) return storey.ceilings;
+  if (extent == RoomExtent::floors) return storey.floors;
+  return closed(joined(storey.floors, storey.ceilings), abutting);
+}
+
 PlanStorey storey_of(const std::vector<Surface>& surfaces, const Project::Params& params, const Context& context) {
   const auto floors = of_class(surfaces, SurfaceClass::floor), ceilings = of_class(surfaces, SurfaceClass::ceiling);
   PlanStorey storey;
@@ -109,7 +115,7 @@ PlanStorey storey_of(const std::vector<Surface>& surfaces, const Project::Params
   storey.ceilings = seen_from_above(ceilings);
   if (floors.empty() && !ceilings.empty())
     context.warn(fmt::format("storey {} has no floor: its rooms are drawn from its ceilings", storey.index));
-  storey.rooms = rooms_of(floors.empty() ? storey.ceilings : storey.floors, storey, faces,
+  storey.rooms = rooms_of(ground_of(storey, params.room_extent), storey, faces,
                           {params.max_opening, params.min_room_width, params.min_room_area});
   for (auto& room : storey.rooms) room.height = std::max(0.0, height_of(room, ceilings, storey.elevation));
   if (storey.walls.empty()) context.warn(fmt::format("storey {} has no walls", storey.index));

@@ -5,6 +5,8 @@
 
 namespace atrium::floorplan {
 
+enum class RoomExtent { floors, floors_and_ceilings };
+
 /// Draws the floor plan of a structural mesh, storey by storey: walls, floors, ceilings and rooms as 2D polygons.
 ///
 /// Any mesh whose triangles have classes will do: scene.merge's `structure`, one read back from its file, or a true
@@ -23,7 +25,9 @@ namespace atrium::floorplan {
 /// - Floors and ceilings: the union of their pieces as seen from above, holes kept. Elevation and height of a storey
 /// are
 ///   medians by area; without a floor, the lowest place of its walls counts as the floor.
-/// - Rooms: connected parts of the floors between the walls, the largest first, numbered through all storeys. Openings
+/// - Rooms: connected parts of the floors between the walls, the largest first, numbered through all storeys. Ceilings
+///   count as well (room_extent), since furniture hides the floor below it; but a room is one third floor at least, and
+///   `floors` stays what was seen. Openings
 ///   of up to max_opening in a face (doors) divide rooms. A storey without floors has its rooms drawn from its
 ///   ceilings, with a warning.
 ///
@@ -49,6 +53,7 @@ struct Project {
     double merge_distance = 0.03;
     double min_wall_length = 0.10;
     double max_opening = 1.25;
+    RoomExtent room_extent = RoomExtent::floors_and_ceilings;
     double min_room_width = 0.40;
     double min_room_area = 1.0;
     double upright_tolerance = 1;
@@ -74,6 +79,9 @@ struct Project {
       param(&Params::min_wall_length, "min_wall_length", metres, within(0, 100), "Shorter pieces are left out."),
       param(&Params::max_opening, "max_opening", metres, within(0, 100),
             "Openings of a wall's face up to this width divide rooms: doors, not wide passages."),
+      param(&Params::room_extent, "room_extent",
+            {{"floors", RoomExtent::floors}, {"floors_and_ceilings", RoomExtent::floors_and_ceilings}},
+            "What rooms are made of: the floors alone, or what floor or ceiling covers."),
       param(&Params::min_room_width, "min_room_width", metres, within(0, 100),
             "What is narrower is no room and joins none: slivers between walls."),
       param(&Params::min_room_area, "min_room_area", square_metres, within(0, 1e6), "What is smaller is no room."),

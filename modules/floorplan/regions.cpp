@@ -79,6 +79,7 @@ Region united(const std::vector<PlanRing>& rings) {
   return combined(paths, {}, cl::ctUnion);
 }
 
+Region joined(const Region& a, const Region& b) { return combined(to_paths(a), to_paths(b), cl::ctUnion); }
 Region minus(const Region& a, const Region& b) { return combined(to_paths(a), to_paths(b), cl::ctDifference); }
 Region common(const Region& a, const Region& b) { return combined(to_paths(a), to_paths(b), cl::ctIntersection); }
 

@@ -12,6 +12,7 @@ using Region = std::vector<PlanPolygon>;
 
 /// What the rings cover, whatever their winding; rings of fewer than three corners cover nothing.
 Region united(const std::vector<PlanRing>& rings);
+Region joined(const Region& a, const Region& b);
 Region minus(const Region& a, const Region& b);
 Region common(const Region& a, const Region& b);
 /// Grown by `distance` metres (shrunk if negative) with mitred corners.

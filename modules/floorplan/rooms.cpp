@@ -7,7 +7,8 @@
 namespace atrium::floorplan {
 namespace {
 
-constexpr double thin = 0.001;   // metres to both sides of a face: as good as no area
+constexpr double thin = 0.001;  // metres to both sides of a face: as good as no area
+constexpr double least_floor = 1.0 / 3;
 constexpr double beyond = 0.05;  // metres: a face that ends just before another still divides
 
 Region dividers(const PlanStorey& storey, const std::vector<WallFace>& faces, double max_opening) {
@@ -23,9 +24,9 @@ Region dividers(const PlanStorey& storey, const std::vector<WallFace>& faces, do
 
 }  // namespace
 
-std::vector<PlanRoom> rooms_of(const Region& floor, const PlanStorey& storey, const std::vector<WallFace>& faces,
+std::vector<PlanRoom> rooms_of(const Region& ground, const PlanStorey& storey, const std::vector<WallFace>& faces,
                                const RoomLimits& limits) {
-  Region open = minus(minus(floor, storey.bodies), dividers(storey, faces, limits.max_opening));
+  Region open = minus(minus(ground, storey.bodies), dividers(storey, faces, limits.max_opening));
   std::vector<PlanRoom> rooms;
   for (const auto& core : grown(open, -0.5 * limits.min_width)) {
     // The core grown back, and nothing that another room has.
@@ -33,7 +34,10 @@ std::vector<PlanRoom> rooms_of(const Region& floor, const PlanStorey& storey, co
     if (parts.empty()) continue;
     open = minus(open, {parts.front()});
     parts = closed({parts.front()}, 4 * thin);  // without the slits that dividers cut at reflex corners
-    if (!parts.empty() && parts.front().area() >= limits.min_area) rooms.push_back({{}, std::move(parts.front()), 0});
+    if (parts.empty() || parts.front().area() < limits.min_area) continue;
+    // Ceilings that stick out past the walls are no rooms.
+    if (storey.floors.empty() || area(common(parts, storey.floors)) >= least_floor * parts.front().area())
+      rooms.push_back({{}, std::move(parts.front()), 0});
   }
   std::stable_sort(rooms.begin(), rooms.end(),
                    [](const PlanRoom& a, const PlanRoom& b) { return a.polygon.area() > b.polygon.area(); });

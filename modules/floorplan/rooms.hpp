@@ -12,11 +12,12 @@ struct RoomLimits {
   double min_area = 1.0;
 };
 
-/// Rooms of a storey: the connected parts of `floor` between the walls, largest first, without names and heights.
+/// Rooms of a storey: the connected parts of `ground` between the walls, largest first, without names and heights.
+/// Parts of which less than a third is floor are none, where the storey has floors.
 ///
 /// Besides the walls, what one face leaves open (a door) divides rooms if it is at most max_opening wide; so does any
 /// passage below min_width. Parts below min_area, or nowhere min_width wide, are none.
-std::vector<PlanRoom> rooms_of(const Region& floor, const PlanStorey& storey, const std::vector<WallFace>& faces,
+std::vector<PlanRoom> rooms_of(const Region& ground, const PlanStorey& storey, const std::vector<WallFace>& faces,
                                const RoomLimits& limits);
 
 /// Height of a room over `elevation`: the median by area of the ceilings above it; 0 if there is none.

@@ -1,0 +1,184 @@
+#include "modules/floorplan/dimensions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "modules/floorplan/wall_pieces.hpp"
+
+namespace atrium::floorplan {
+namespace {
+
+constexpr double same_stop = 0.025;     // metres: wall faces nearer than this get one stop
+constexpr double parallel = 0.05;       // sin 3°
+constexpr double behind_facade = 0.50;  // metres: walls that begin further behind another one are not seen
+constexpr double shortest = 0.30;       // metres: shorter pieces of wall get no stop
+
+// Millimetres of paper.
+constexpr double digits = 2.0, first_line = 9, line_step = 8, row = 2.9, above = 1.7, below = 2.3;
+
+// A wall's face as seen from one side: `at` along the side, from depth `near` to `far` away from it.
+struct Edge {
+  double at, near, far;
+};
+struct View {
+  std::vector<Edge> across;  // faces that run away from the side
+  std::vector<Edge> along;   // faces that run along it: at is their depth, near to far their extent
+};
+
+// Coordinates of a side: x along it, y the depth seen from outside.
+Eigen::Vector2d seen_from(Side side, const Eigen::Vector2d& p) {
+  switch (side) {
+    case Side::bottom: return {p.x(), p.y()};
+    case Side::top: return {p.x(), -p.y()};
+    case Side::left: return {p.y(), p.x()};
+    default: return {p.y(), -p.x()};
+  }
+}
+
+void add_face(View& view, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2d d = b - a;
+  if (std::abs(d.x()) <= parallel * d.norm() && d.norm() >= shortest)
+    view.across.push_back({a.y() < b.y() ? a.x() : b.x(), std::min(a.y(), b.y()), std::max(a.y(), b.y())});
+  else if (std::abs(d.x()) > std::abs(d.y()))
+    view.along.push_back({0.5 * (a.y() + b.y()), std::min(a.x(), b.x()), std::max(a.x(), b.x())});
+}
+
+View view_from(Side side, const PlanStorey& storey) {
+  View view;
+  for (const auto& wall : storey.walls) {
+    const auto face = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+      add_face(view, seen_from(side, a), seen_from(side, b));
+    };
+    if (wall.outline.empty()) {
+      face(wall.from, wall.to);
+    } else {
+      face(wall.outline[0], wall.outline[1]);
+      face(wall.outline[2], wall.outline[3]);
+    }
+  }
+  return view;
+}
+
+std::vector<double> distinct(std::vector<double> stops) {
+  std::sort(stops.begin(), stops.end());
+  std::vector<double> result;
+  for (const double stop : stops)
+    if (result.empty() || stop - result.back() > same_stop) result.push_back(stop);
+  return result;
+}
+
+// From the first to the last face across the side, seen or not.
+std::vector<double> whole_of(Side side, const PlanStorey& storey, double low, double high) {
+  std::vector<double> stops;
+  for (const auto& edge : view_from(side, storey).across) stops.push_back(edge.at);
+  stops = distinct(std::move(stops));
+  return stops.size() > 1 ? std::vector{stops.front(), stops.back()} : distinct({low, high});
+}
+
+std::vector<double> stops_of(Side side, const PlanStorey& storey) {
+  const View view = view_from(side, storey);
+  std::vector<double> stops;
+  for (const auto& edge : view.across) {
+    const bool hidden = std::any_of(view.along.begin(), view.along.end(), [&](const Edge& wall) {
+      return wall.at < edge.near - behind_facade && wall.near < edge.at - same_stop && wall.far > edge.at + same_stop;
+    });
+    if (!hidden) stops.push_back(edge.at);
+  }
+  return distinct(std::move(stops));
+}
+
+bool adds_to(const std::vector<double>& stops, const std::vector<double>& known) {
+  return std::any_of(stops.begin(), stops.end(), [&](double stop) {
+    return std::none_of(known.begin(), known.end(), [&](double k) { return std::abs(k - stop) <= same_stop; });
+  });
+}
+
+struct Box {
+  double from, to;
+  int row;
+};
+
+// Texts stand above the line where they fit between their stops, else in the nearest free row outside of it.
+void add_labels(DimensionChain& chain, double mm) {
+  std::vector<Box> taken;
+  const double gap = 0.6 * mm;
+  // "Above" is to the left of a text that runs upwards.
+  const double upwards = chain.upright() ? -1 : 1;
+  const bool above_is_outside = upwards == chain.outwards();
+  for (const bool wide : {true, false})
+    for (std::size_t i = 1; i < chain.stops.size(); ++i) {
+      const double a = chain.stops[i - 1], b = chain.stops[i];
+      const std::string text = fmt::format("{:.2f}", b - a);
+      const double half = 0.5 * text_width(text, digits * mm), middle = 0.5 * (a + b);
+      if ((2 * half + 2 * gap <= b - a) != wide) continue;
+      Box box{middle - half, middle + half, wide ? 0 : 1};
+      const auto free = [&] {
+        return std::none_of(taken.begin(), taken.end(), [&](const Box& other) {
+          return other.row == box.row && other.from < box.to + gap && box.from < other.to + gap;
+        });
+      };
+      while (!wide && !free()) ++box.row;
+      taken.push_back(box);
+      const double outside = above_is_outside ? above + box.row * row : below + (box.row - 1) * row;
+      const double aside = box.row == 0 ? upwards * above : chain.outwards() * outside;
+      if (box.row > 0) chain.depth = std::max(chain.depth, (outside + digits) * mm);
+      chain.labels.push_back({chain.at(middle, chain.line + aside * mm), chain.upright(), digits * mm, text});
+    }
+}
+
+DimensionChain chain_of(Side side, const Bounds2& box, std::vector<double> stops, double offset, double mm) {
+  DimensionChain chain;
+  chain.side = side;
+  chain.stops = std::move(stops);
+  const Eigen::Vector2d& corner = chain.outwards() > 0 ? box.high : box.low;
+  const double edge = chain.upright() ? corner.x() : corner.y();
+  chain.from_building = edge + chain.outwards() * 2 * mm;
+  chain.line = edge + chain.outwards() * offset;
+  add_labels(chain, mm);
+  return chain;
+}
+
+}  // namespace
+
+double text_width(const std::string& text, double height) {
+  double width = 0;  // in units of the height of its digits
+  for (const char c : text) {
+    if ((static_cast<unsigned char>(c) & 0xC0U) == 0x80U) continue;  // not the first byte of a character
+    width += c == '.' || c == ' ' || c == 'i' || c == 'l' ? 0.45 : 0.9;
+  }
+  return width * height;
+}
+
+std::vector<DimensionChain> dimensions_of(const PlanStorey& storey, double mm) {
+  const Bounds2 box = bounds(storey), walls = wall_bounds(storey);
+  std::vector<DimensionChain> chains;
+  if (walls.empty()) return chains;
+  const std::vector<double> bottom = stops_of(Side::bottom, storey), left = stops_of(Side::left, storey);
+  const auto add = [&](Side side, const std::vector<double>& stops, double low, double high) {
+    const std::vector<double> whole = whole_of(side, storey, low, high);
+    const bool more = stops.size() > 2 || (stops.size() == 2 && adds_to(stops, whole));
+    double offset = first_line * mm;
+    if (more) {
+      chains.push_back(chain_of(side, box, stops, offset, mm));
+      offset += std::max(line_step * mm, chains.back().depth + 2 * above * mm);
+    }
+    if (whole.size() == 2) chains.push_back(chain_of(side, box, whole, offset, mm));
+  };
+  add(Side::bottom, bottom, walls.low.x(), walls.high.x());
+  add(Side::left, left, walls.low.y(), walls.high.y());
+  const auto opposite = [&](Side side, const std::vector<double>& known) {
+    const auto stops = stops_of(side, storey);
+    if (stops.size() > 1 && adds_to(stops, known)) chains.push_back(chain_of(side, box, stops, first_line * mm, mm));
+  };
+  std::vector<double> known = bottom;
+  known.insert(known.end(), {walls.low.x(), walls.high.x()});
+  opposite(Side::top, known);
+  known = left;
+  known.insert(known.end(), {walls.low.y(), walls.high.y()});
+  opposite(Side::right, known);
+  return chains;
+}
+
+}  // namespace atrium::floorplan

@@ -1,0 +1,45 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "modules/floorplan/plan_view.hpp"
+
+namespace atrium::floorplan {
+
+/// Text on the plan, read from its lower or right edge.
+struct Label {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  bool upwards = false;  ///< runs along +y
+  double height = 0;     ///< of its digits
+  std::string text;
+};
+
+enum class Side { bottom, left, top, right };
+
+/// A chain of dimensions on a line parallel to an axis, outside of the building.
+struct DimensionChain {
+  Side side = Side::bottom;
+  double line = 0;            ///< y of the line (bottom, top) or x (left, right)
+  double from_building = 0;   ///< where the extension lines begin, in the same direction
+  double depth = 0;           ///< how far outside of the line its texts reach, beyond the first row
+  std::vector<double> stops;  ///< along the line, ascending, at least two
+  std::vector<Label> labels;  ///< metres to the centimetre; one per interval, no two on top of each other
+
+  bool upright() const { return side == Side::left || side == Side::right; }
+  /// The point at `along` the line and `across` it.
+  Eigen::Vector2d at(double along, double across) const {
+    return upright() ? Eigen::Vector2d(across, along) : Eigen::Vector2d(along, across);
+  }
+  /// +1 where outwards from the building is upwards or to the right.
+  double outwards() const { return side == Side::top || side == Side::right ? 1 : -1; }
+};
+
+/// The dimensions of a storey whose walls are parallel to the axes: on each side a chain of the wall faces that can be
+/// seen from there (top and right only where they differ from bottom and left), and outside of it the whole length.
+/// `mm` is how many metres of the plan are a millimetre of paper.
+std::vector<DimensionChain> dimensions_of(const PlanStorey& storey, double mm);
+
+/// Width of a text of the given height, at most (wide sans-serif fonts).
+double text_width(const std::string& text, double height);
+
+}  // namespace atrium::floorplan

@@ -1,0 +1,158 @@
+#include "modules/floorplan/drawn_storey.hpp"
+
+#include <algorithm>
+
+#include "modules/floorplan/room_label.hpp"
+#include "modules/floorplan/wall_pieces.hpp"
+
+namespace atrium::floorplan {
+namespace {
+
+constexpr double font = 1.4;         // font size per height of digits
+constexpr double hatch_width = 2.2;  // millimetres of paper behind a face whose other side is not known
+
+class Pen {
+ public:
+  Pen(SvgCanvas& canvas, const Sheet& sheet, std::size_t index) : canvas_(canvas), sheet_(sheet), index_(index) {}
+  Eigen::Vector2d at(const Eigen::Vector2d& p) const { return sheet_.on_paper(index_, p); }
+  void polygon(const PlanPolygon& polygon, std::string_view attributes = {}) const {
+    std::vector<PlanRing> rings{ring(polygon.outline)};
+    for (const auto& hole : polygon.holes) rings.push_back(ring(hole));
+    canvas_.polygon(rings, attributes);
+  }
+  void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const { canvas_.line(at(a), at(b)); }
+  double mm() const { return 1 / sheet_.per_metre(); }  // metres of the plan
+
+ private:
+  PlanRing ring(const PlanRing& corners) const {
+    PlanRing result;
+    for (const auto& p : corners) result.push_back(at(p));
+    return result;
+  }
+  SvgCanvas& canvas_;
+  const Sheet& sheet_;
+  std::size_t index_;
+};
+
+// Whether another wall that is not parallel ends, or runs, where the wall has its end p.
+bool at_corner(const PlanStorey& storey, const PlanWall& wall, const Eigen::Vector2d& p) {
+  constexpr double near = 0.01;  // metres
+  const Eigen::Vector2d along = (wall.to - wall.from).normalized();
+  return std::any_of(storey.walls.begin(), storey.walls.end(), [&](const PlanWall& other) {
+    const Eigen::Vector2d d = other.to - other.from;
+    const double reach = std::clamp(d.dot(p - other.from) / d.squaredNorm(), 0.0, 1.0);
+    return std::abs(cross(along, d.normalized())) > 0.17 &&
+           (other.from + reach * d - p).norm() < 0.5 * other.thickness + near;
+  });
+}
+
+// What is certainly wall behind the single faces: a band on the side from which they are not seen.
+Region behind_faces(const PlanStorey& storey, double width) {
+  std::vector<PlanRing> bands, open;
+  for (const auto& wall : storey.walls) {
+    if (wall.thickness > 0) continue;
+    const Eigen::Vector2d along = (wall.to - wall.from).normalized();
+    const Eigen::Vector2d aside = 0.5 * width * Eigen::Vector2d(along.y(), -along.x());
+    const Eigen::Vector2d from = wall.from - (at_corner(storey, wall, wall.from) ? width : 0) * along;
+    const Eigen::Vector2d to = wall.to + (at_corner(storey, wall, wall.to) ? width : 0) * along;
+    bands.push_back(strip(from + aside, to + aside, 0.5 * width, 0));
+  }
+  Region rooms = storey.floors;
+  for (const auto& room : storey.rooms) rooms.push_back(room.polygon);
+  for (const auto& polygon : rooms) open.push_back(polygon.outline);
+  return minus(minus(united(bands), united(open)), storey.bodies);
+}
+
+void draw_areas(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey) {
+  canvas.begin_group("stroke=\"#b8b2a6\" stroke-width=\"0.13\"");
+  for (const auto& floor : storey.floors) pen.polygon(floor, "fill=\"#f1eee7\"");
+  canvas.end_group();
+  // A room's edge shows where no wall stands on it.
+  canvas.begin_group("fill=\"#fbfaf7\" stroke=\"#8a8a8a\" stroke-width=\"0.18\" stroke-dasharray=\"1.6 0.9\"");
+  for (const auto& room : storey.rooms) pen.polygon(room.polygon);
+  canvas.end_group();
+}
+
+void draw_walls(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey) {
+  for (const auto& part : behind_faces(storey, hatch_width * pen.mm())) pen.polygon(part, "fill=\"url(#hatch)\"");
+  canvas.begin_group("fill=\"#33363b\" stroke=\"#000\" stroke-width=\"0.35\" stroke-linejoin=\"miter\"");
+  for (const auto& body : storey.bodies) pen.polygon(body);
+  canvas.end_group();
+  canvas.begin_group("fill=\"none\" stroke=\"#000\" stroke-width=\"0.5\" stroke-linecap=\"square\"");
+  for (const auto& wall : storey.walls)
+    if (wall.thickness <= 0) pen.line(wall.from, wall.to);
+  canvas.end_group();
+}
+
+void draw_room_labels(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey) {
+  canvas.begin_group("fill=\"#1a1a1a\" text-anchor=\"middle\"");
+  for (const auto& room : storey.rooms) {
+    const std::string area = fmt::format("{:.2f} m\u00B2", room.polygon.area());
+    const std::string height = room.height > 0 ? fmt::format("h {:.2f} m", room.height) : std::string();
+    const double width = std::max(text_width(room.name, 2.6), text_width(area, 2.2)) + 2;
+    const LabelPlace place = label_place(room.polygon, Eigen::Vector2d(width, 15) * pen.mm());
+    const double size = std::max(place.scale, 0.45);  // below, no one could read it
+    const Eigen::Vector2d at = pen.at(place.scale > 0 ? place.middle : room.polygon.outline.front());
+    canvas.text(at + Eigen::Vector2d(0, -2.2 * size), 3.6 * size, room.name, "font-weight=\"bold\"");
+    canvas.text(at + Eigen::Vector2d(0, 2.0 * size), 3.0 * size, area);
+    if (!height.empty()) canvas.text(at + Eigen::Vector2d(0, 5.8 * size), 2.5 * size, height, "fill=\"#666\"");
+  }
+  canvas.end_group();
+}
+
+void draw_dimensions(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey) {
+  const double mm = pen.mm();
+  for (const auto& chain : dimensions_of(storey, mm)) {
+    canvas.begin_group("fill=\"none\" stroke=\"#444\" stroke-width=\"0.18\"");
+    const double over = chain.outwards() * mm;
+    pen.line(chain.at(chain.stops.front() - mm, chain.line), chain.at(chain.stops.back() + mm, chain.line));
+    for (const double stop : chain.stops)
+      pen.line(chain.at(stop, chain.from_building), chain.at(stop, chain.line + over));
+    canvas.end_group();
+    canvas.begin_group("fill=\"none\" stroke=\"#000\" stroke-width=\"0.4\"");
+    for (const double stop : chain.stops) {
+      const Eigen::Vector2d middle = chain.at(stop, chain.line), tick(0.7 * mm, 0.7 * mm);
+      pen.line(middle - tick, middle + tick);
+    }
+    canvas.end_group();
+    canvas.begin_group("fill=\"#1a1a1a\" text-anchor=\"middle\"");
+    for (const auto& label : chain.labels) {
+      const Eigen::Vector2d down =
+          label.upwards ? Eigen::Vector2d(0.5 * label.height, 0) : Eigen::Vector2d(0, -0.5 * label.height);
+      canvas.text(pen.at(label.middle + down), label.height / mm * font, label.text, {}, label.upwards ? -90 : 0);
+    }
+    canvas.end_group();
+  }
+}
+
+void draw_caption(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey, double elevation) {
+  const Bounds2 box = drawing_bounds(storey, pen.mm());
+  double area = 0;
+  for (const auto& room : storey.rooms) area += room.polygon.area();
+  const Bounds2 building = bounds(storey);
+  const double left = building.empty() ? box.low.x() : building.low.x();
+  const Eigen::Vector2d at = pen.at({left, box.high.y()}) - Eigen::Vector2d(0, caption_height - 4);
+  canvas.text(at, 3.4, fmt::format("Storey {}", storey.index), "font-weight=\"bold\"");
+  std::string about = fmt::format("floor at {:.2f} m", elevation);
+  if (storey.height > 0) about += fmt::format(" \u00B7 height {:.2f} m", storey.height);
+  about += fmt::format(" \u00B7 {} {} \u00B7 {:.2f} m\u00B2", storey.rooms.size(),
+                       storey.rooms.size() == 1 ? "room" : "rooms", area);
+  canvas.text(at + Eigen::Vector2d(text_width(fmt::format("Storey {}", storey.index), 2.6) + 3, 0), 2.6, about,
+              "fill=\"#444\"");
+}
+
+}  // namespace
+
+void draw_storey(SvgCanvas& canvas, const Sheet& sheet, std::size_t index, const PlanStorey& storey, double elevation,
+                 bool dimensions) {
+  const Pen pen(canvas, sheet, index);
+  canvas.begin_group(fmt::format("id=\"storey-{}\"", storey.index));
+  draw_areas(canvas, pen, storey);
+  draw_walls(canvas, pen, storey);
+  draw_room_labels(canvas, pen, storey);
+  if (dimensions) draw_dimensions(canvas, pen, storey);
+  draw_caption(canvas, pen, storey, elevation);
+  canvas.end_group();
+}
+
+}  // namespace atrium::floorplan

@@ -1,0 +1,21 @@
+#pragma once
+#include "modules/floorplan/sheet.hpp"
+#include "modules/floorplan/svg_canvas.hpp"
+
+namespace atrium::floorplan {
+
+/// Draws storey number `index` of the sheet, whose walls are turned parallel to it: floors, walls, labels of the rooms,
+/// dimensions and a caption with its elevation (metres, in the input's frame).
+void draw_storey(SvgCanvas& canvas, const Sheet& sheet, std::size_t index, const PlanStorey& storey, double elevation,
+                 bool dimensions);
+
+/// The frame and the strip at its foot: title, what is drawn, north arrow, scale.
+struct TitleBlock {
+  std::string title, note;
+  std::size_t rooms = 0, storeys = 0;
+  double area = 0;   ///< of all rooms, square metres
+  double north = 0;  ///< radians, counter-clockwise from the sheet's up to the input's +y
+};
+void draw_title(SvgCanvas& canvas, const Sheet& sheet, const TitleBlock& block);
+
+}  // namespace atrium::floorplan

@@ -1,0 +1,128 @@
+#include "modules/floorplan/write_dxf.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "modules/floorplan/dimensions.hpp"
+#include "modules/floorplan/dxf_drawing.hpp"
+#include "modules/floorplan/room_label.hpp"
+
+namespace atrium::floorplan {
+namespace {
+
+const std::vector<DxfLayer> layers{{"A-WALL", 7, 50},      {"A-WALL-CNTR", 1, 13}, {"A-WALL-FACE", 7, 50},
+                                   {"A-FLOR", 9, 13},      {"A-CLNG", 4, 13},      {"A-AREA", 3, 18},
+                                   {"A-AREA-IDEN", 2, 18}, {"A-ANNO-DIMS", 8, 18}};
+
+class StoreyDrawing {
+ public:
+  StoreyDrawing(DxfDrawing& drawing, std::string suffix, double mm)
+      : drawing_(drawing), suffix_(std::move(suffix)), mm_(mm) {}
+
+  void walls(const PlanStorey& storey) {
+    polygons("A-WALL", storey.bodies);
+    for (const auto& wall : storey.walls)
+      drawing_.line((wall.thickness > 0 ? "A-WALL-CNTR" : "A-WALL-FACE") + suffix_, wall.from, wall.to);
+  }
+
+  void areas(const PlanStorey& storey) {
+    polygons("A-FLOR", storey.floors);
+    polygons("A-CLNG", storey.ceilings);
+    for (const auto& room : storey.rooms) polygons("A-AREA", {room.polygon});
+  }
+
+  // In the plan's own axes, turned by `turn` from those that the walls are parallel to.
+  void labels(const PlanStorey& storey, double turn) {
+    const Eigen::Rotation2Dd back(turn);
+    for (const auto& room : storey.rooms) {
+      const LabelPlace place = label_place(room.polygon, Eigen::Vector2d(20, 15) * mm_, storey.walls);
+      const Eigen::Vector2d middle = place.scale > 0 ? place.middle : room.polygon.outline.front();
+      std::vector<std::string> rows{room.name, fmt::format("{:.2f} m\u00B2", room.polygon.area())};
+      if (room.height > 0) rows.push_back(fmt::format("h {:.2f} m", room.height));
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double down = (static_cast<double>(i) - 0.5 * static_cast<double>(rows.size() - 1)) * 4 * mm_;
+        drawing_.text("A-AREA-IDEN" + suffix_, middle + back * Eigen::Vector2d(0, -down), 2.5 * mm_, rows[i], turn);
+      }
+    }
+  }
+
+  void dimensions(const PlanStorey& storey, double turn) {
+    const std::string layer = "A-ANNO-DIMS" + suffix_;
+    const Eigen::Rotation2Dd back(turn);
+    const auto line = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+      drawing_.line(layer, back * a, back * b);
+    };
+    for (const auto& chain : dimensions_of(turned(storey, turn), mm_)) {
+      line(chain.at(chain.stops.front(), chain.line), chain.at(chain.stops.back(), chain.line));
+      for (const double stop : chain.stops) {
+        const Eigen::Vector2d middle = chain.at(stop, chain.line), tick(0.7 * mm_, 0.7 * mm_);
+        line(chain.at(stop, chain.from_building), chain.at(stop, chain.line + chain.outwards() * mm_));
+        line(middle - tick, middle + tick);
+      }
+      for (const auto& label : chain.labels)
+        drawing_.text(layer, back * label.middle, label.height, label.text,
+                      turn + (label.upwards ? 0.5 * std::numbers::pi : 0));
+    }
+  }
+
+ private:
+  void polygons(const std::string& layer, const std::vector<PlanPolygon>& polygons) {
+    for (const auto& polygon : polygons) {
+      drawing_.closed_polyline(layer + suffix_, polygon.outline);
+      for (const auto& hole : polygon.holes) drawing_.closed_polyline(layer + suffix_, hole);
+    }
+  }
+
+  DxfDrawing& drawing_;
+  std::string suffix_;
+  double mm_;
+};
+
+std::vector<DxfLayer> named(const std::string& suffix) {
+  std::vector<DxfLayer> result = layers;
+  for (auto& layer : result) layer.name += suffix;
+  return result;
+}
+
+}  // namespace
+
+WriteDxf::Out WriteDxf::run(const In& in, const Params& params, Context& context) {
+  const FloorPlan& plan = *in.plan;
+  const auto suffix_of = [&](const PlanStorey& storey) {
+    return plan.storeys.size() > 1 ? fmt::format("-S{}", storey.index) : std::string();
+  };
+  std::vector<PlanStorey> storeys;
+  std::vector<DxfLayer> all;
+  for (const auto& storey : plan.storeys) {
+    if (params.storey >= 0 && storey.index != params.storey) continue;
+    storeys.push_back(storey);
+    const auto more = named(suffix_of(storey));
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  if (params.storey >= 0 && storeys.empty())
+    throw Error(fmt::format("the plan has no storey {}", params.storey),
+                fmt::format("it has {}, counted from 0; -1 writes all", plan.storeys.size()));
+  if (storeys.empty()) {
+    context.warn("the plan is empty: " + params.path.path + " has no entities");
+    all = layers;
+  }
+  const double turn = wall_turn(plan), mm = params.scale / 1000.0;
+  const auto path = context.output(params.path.path);
+  AtomicFile file(path);
+  DxfDrawing drawing(file, plan.origin.head<2>(), all);
+  for (const auto& storey : storeys) {
+    StoreyDrawing entities(drawing, suffix_of(storey), mm);
+    entities.areas(storey);
+    entities.walls(storey);
+    entities.labels(storey, turn);
+    if (params.dimensions) entities.dimensions(storey, turn);
+  }
+  drawing.finish();
+  file.commit();
+  context.wrote(path);
+  return {};
+}
+
+}  // namespace atrium::floorplan

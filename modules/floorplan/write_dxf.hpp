@@ -1,0 +1,52 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/floor_plan.hpp"
+
+namespace atrium::floorplan {
+
+/// Writes a floor plan as DXF (release 2000, text), for CAD programs: metres ($INSUNITS 6), in the frame of the plan
+/// with its true offsets, in the plane z = 0.
+///
+/// Layers, after the CAD layer guidelines of the American Institute of Architects:
+///
+/// | layer | holds |
+/// |---|---|
+/// | A-WALL | what the walls of known thickness cover, joined |
+/// | A-WALL-CNTR | their middle lines |
+/// | A-WALL-FACE | faces of walls of unknown thickness |
+/// | A-FLOR, A-CLNG | floors and ceilings |
+/// | A-AREA, A-AREA-IDEN | outlines of rooms; their names, areas and heights |
+/// | A-ANNO-DIMS | dimensions outside of the building, as lines and texts |
+///
+/// Polygons are closed LWPOLYLINEs, holes have one of their own. If the plan has several storeys, each has its own
+/// layers: A-WALL-S0, A-WALL-S1, … (0 the lowest); they lie above each other, as in the building. Coordinates have all
+/// digits of a double; text that is not ASCII is written as \U+XXXX, as the format wants.
+///
+/// A plan without storeys gives a valid file without entities, and a warning. Errors: no such storey; a folder or disk
+/// that cannot be written; then no file is there.
+struct WriteDxf {
+  static constexpr std::string_view type = "floorplan.write_dxf";
+  static constexpr std::string_view summary = "Writes a floor plan as DXF, for CAD programs.";
+  struct In {
+    Input<FloorPlan> plan;
+  };
+  struct Out {};
+  struct Params {
+    OutputPath path{"floorplan.dxf"};
+    std::int32_t storey = -1;
+    std::int32_t scale = 100;
+    bool dimensions = true;
+  };
+  static constexpr auto inputs = std::tuple{port(&In::plan, "plan", "What to write.")};
+  static constexpr auto outputs = std::tuple{};
+  static constexpr auto params = std::tuple{
+      param(&Params::path, "path", "The file, in the run's folder."),
+      param(&Params::storey, "storey", count, within(-1, 10000), "The storey to write, 0 the lowest; -1: all of them."),
+      param(&Params::scale, "scale", unitless, within(1, 100000),
+            "The scale at which it will be plotted, 100 for 1:100: sizes texts and dimensions only."),
+      param(&Params::dimensions, "dimensions", "Write the chains of dimensions."),
+  };
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::floorplan

@@ -1,0 +1,61 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/floorplan/sheet.hpp"
+
+namespace atrium::floorplan {
+
+enum class Axes { walls, input };
+
+/// Draws a floor plan on a sheet of paper, true to scale when it is printed at 100 %.
+///
+/// Walls of known thickness are filled; a wall of which one face was seen is that face's line with a hatched band where
+/// the wall is; a room's edge without a wall is dashed. Each room has its name, area and height; outside of the
+/// building stand chains of dimensions, of the wall faces seen from that side and of the whole, in metres. The sheet
+/// has a scale bar, a north arrow (the input's +y), and a title block with the scale, the number of rooms and their
+/// area; no date, so that the same plan gives the same bytes.
+///
+/// All storeys stand on one sheet, the lowest on the left or at the bottom, at the greatest usual scale that A4 or A3
+/// has room for (1:50, 1:100, 1:200, 1:500, …) unless `scale` and `paper` say otherwise; `storey` draws one alone. The
+/// plan is turned so that most walls are parallel to the sheet's edges, by at most 45°.
+///
+/// A plan without storeys gives a sheet that says so, and a warning. Errors: no such storey; a plan that does not fit
+/// on the given paper at the given scale; a folder that cannot be written. Then no file is there.
+struct WriteSvg {
+  static constexpr std::string_view type = "floorplan.write_svg";
+  static constexpr std::string_view summary = "Draws a floor plan to scale, with dimensions and labels, as SVG.";
+  struct In {
+    Input<FloorPlan> plan;
+  };
+  struct Out {};
+  struct Params {
+    OutputPath path{"floorplan.svg"};
+    std::string title = "Floor plan";
+    std::int32_t storey = -1;
+    Paper paper = Paper::automatic;
+    std::int32_t scale = 0;
+    Axes axes = Axes::walls;
+    bool dimensions = true;
+  };
+  static constexpr auto inputs = std::tuple{port(&In::plan, "plan", "What to draw.")};
+  static constexpr auto outputs = std::tuple{};
+  static constexpr auto params = std::tuple{
+      param(&Params::path, "path", "The file, in the run's folder."),
+      param(&Params::title, "title", "What stands in the title block."),
+      param(&Params::storey, "storey", count, within(-1, 10000), "The storey to draw, 0 the lowest; -1: all of them."),
+      param(&Params::paper, "paper",
+            {{"auto", Paper::automatic},
+             {"A4", Paper::a4},
+             {"A3", Paper::a3},
+             {"A2", Paper::a2},
+             {"A1", Paper::a1},
+             {"A0", Paper::a0}},
+            "The sheet, upright or lying; auto: the smaller of A4 and A3, with a given scale up to A0."),
+      param(&Params::scale, "scale", unitless, within(0, 100000), "50 means 1:50; 0: the greatest that fits."),
+      param(&Params::axes, "axes", {{"walls", Axes::walls}, {"input", Axes::input}},
+            "What is parallel to the sheet: the walls, or the input's x and y."),
+      param(&Params::dimensions, "dimensions", "Draw the chains of dimensions."),
+  };
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::floorplan

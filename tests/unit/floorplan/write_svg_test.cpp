@@ -1,0 +1,231 @@
+#include "modules/floorplan/write_svg.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <boost/property_tree/xml_parser.hpp>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <sstream>
+
+#include "modules/floorplan/svg_canvas.hpp"
+#include "tests/unit/floorplan/buildings.hpp"
+
+namespace atrium::floorplan {
+namespace {
+
+using boost::property_tree::ptree;
+
+class Svg : public testing::Test {
+ protected:
+  std::shared_ptr<Host> host = std::make_shared<Host>();
+  Context context{1, host};
+  std::filesystem::path file = host->folder / "floorplan.svg";
+
+  std::string write(const FloorPlan& plan, const WriteSvg::Params& params = {}) {
+    WriteSvg::run({input(plan)}, params, context);
+    return test::read_text(file);
+  }
+  std::string error_of(const FloorPlan& plan, const WriteSvg::Params& params) {
+    try {
+      write(plan, params);
+    } catch (const Error& error) {
+      EXPECT_FALSE(error.help().empty());
+      EXPECT_FALSE(std::filesystem::exists(file));
+      return error.what();
+    }
+    return "no error";
+  }
+};
+
+ptree parsed(const std::string& text) {
+  std::istringstream in(text);
+  ptree tree;
+  read_xml(in, tree);
+  return tree.get_child("svg");
+}
+
+void each(const ptree& tree, const std::string& element, const std::function<void(const ptree&)>& visit) {
+  for (const auto& [name, child] : tree) {
+    if (name == element) visit(child);
+    each(child, element, visit);
+  }
+}
+
+std::vector<std::string> texts(const std::string& svg) {
+  std::vector<std::string> result;
+  each(parsed(svg), "text", [&](const ptree& text) { result.push_back(text.data()); });
+  return result;
+}
+
+bool has_text(const std::string& svg, const std::string& text) {
+  const auto all = texts(svg);
+  return std::find(all.begin(), all.end(), text) != all.end();
+}
+
+Mesh row_of_rooms(double width, double height, int count) {
+  MeshBuilder b;
+  for (int i = 0; i < count; ++i) b.room(i * (width + 0.12), 0, i * (width + 0.12) + width, height);
+  return b.mesh;
+}
+
+void expect_no_overlap(const PlanStorey& storey, double mm) {
+  struct Box {
+    Eigen::Vector2d low, high;
+  };
+  std::vector<Box> boxes;
+  for (const auto& chain : dimensions_of(storey, mm))
+    for (const auto& label : chain.labels) {
+      const double half = 0.5 * text_width(label.text, label.height);
+      const Eigen::Vector2d reach =
+          label.upwards ? Eigen::Vector2d(0.5 * label.height, half) : Eigen::Vector2d(half, 0.5 * label.height);
+      boxes.push_back({label.middle - reach, label.middle + reach});
+    }
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t j = i + 1; j < boxes.size(); ++j)
+      EXPECT_TRUE((boxes[i].low.array() >= boxes[j].high.array()).any() ||
+                  (boxes[j].low.array() >= boxes[i].high.array()).any())
+          << i << " and " << j << " at " << mm;
+}
+
+TEST_F(Svg, IsTrueToScaleOnPaper) {
+  const std::string svg = write(plan_of(two_rooms()));
+  const ptree root = parsed(svg);
+  EXPECT_EQ(root.get<std::string>("<xmlattr>.width"), "297mm");
+  EXPECT_EQ(root.get<std::string>("<xmlattr>.height"), "210mm");
+  EXPECT_EQ(root.get<std::string>("<xmlattr>.viewBox"), "0 0 297 210");
+  EXPECT_TRUE(has_text(svg, "1:50"));
+  const Sheet sheet = arranged(plan_of(two_rooms()).storeys, Paper::automatic, 0);
+  EXPECT_NEAR((sheet.on_paper(0, {1, 0}) - sheet.on_paper(0, {0, 0})).x(), 20, 1e-9);
+  // The filled wall, 12 cm by 3 m, is 2.4 mm by 60 mm.
+  Eigen::Vector2d size = Eigen::Vector2d::Zero();
+  each(root, "g", [&](const ptree& group) {
+    if (group.get<std::string>("<xmlattr>.fill", "") != "#33363b") return;
+    std::string path = group.get<std::string>("path.<xmlattr>.d");
+    for (auto& c : path)
+      if (std::string_view("MLZ,").find(c) != std::string_view::npos) c = ' ';
+    std::istringstream in(path);
+    Bounds2 box;
+    for (Eigen::Vector2d p; in >> p.x() >> p.y();) box.add(p);
+    size = box.size();
+  });
+  EXPECT_NEAR(size.x(), 2.4, 0.02);
+  EXPECT_NEAR(size.y(), 60, 0.02);
+}
+
+TEST_F(Svg, NamesRoomsWithAreaAndHeight) {
+  const std::string svg = write(plan_of(two_rooms()));
+  for (const auto* text : {"Room 1", "Room 2", "h 2.50 m", "4.00", "0.12", "2.88", "3.00", "7.00", "N", "Floor plan"})
+    EXPECT_TRUE(has_text(svg, text)) << text;
+  EXPECT_TRUE(has_text(svg, "11.99 m\u00B2") || has_text(svg, "12.00 m\u00B2"));
+}
+
+TEST_F(Svg, TextIsEscaped) {
+  WriteSvg::Params params;
+  params.title = "<b> & \"quoted\" \x01 \xC3\xBC \xFF";
+  const std::string svg = write(plan_of(two_rooms()), params);
+  EXPECT_TRUE(has_text(svg, "<b> & \"quoted\" \xEF\xBF\xBD \xC3\xBC \xEF\xBF\xBD"));
+  EXPECT_EQ(escaped("\xED\xA0\x80"), "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");  // a surrogate
+  EXPECT_EQ(escaped("\xE2\x82"), "\xEF\xBF\xBD\xEF\xBF\xBD");                  // cut off
+}
+
+TEST_F(Svg, ThePaperGrowsBeforeTheScaleShrinks) {
+  const auto sheet = [](double width, double height, Paper paper = Paper::automatic, int scale = 0) {
+    return arranged(plan_of(row_of_rooms(width, height, 1)).storeys, paper, scale);
+  };
+  EXPECT_EQ(sheet(3, 3).paper, "A4");
+  EXPECT_EQ(sheet(3, 3).scale, 50);
+  EXPECT_EQ(sheet(12, 8).paper, "A3");
+  EXPECT_EQ(sheet(12, 8).scale, 50);
+  EXPECT_EQ(sheet(30, 15).scale, 100);
+  EXPECT_EQ(sheet(200, 100).scale, 1000);
+  EXPECT_EQ(sheet(30, 15, Paper::automatic, 50).paper, "A1");
+  EXPECT_EQ(sheet(12, 8, Paper::a4).scale, 100);
+  EXPECT_GT(sheet(3, 12, Paper::a3).size.y(), sheet(3, 12, Paper::a3).size.x());  // upright
+}
+
+TEST_F(Svg, DimensionTextsDoNotOverlap) {
+  for (const double width : {0.4, 0.9, 3.0})
+    for (const double mm : {0.05, 0.1, 0.2, 1.0})
+      expect_no_overlap(plan_of(row_of_rooms(width, 3, 8)).storeys.at(0), mm);
+}
+
+TEST_F(Svg, DimensionChainsAddUp) {
+  for (const auto& chain : dimensions_of(plan_of(two_rooms()).storeys.at(0), 0.05)) {
+    ASSERT_EQ(chain.labels.size() + 1, chain.stops.size());
+    double sum = 0;
+    for (const auto& label : chain.labels) sum += std::stod(label.text);
+    EXPECT_NEAR(sum, chain.stops.back() - chain.stops.front(), 0.005 * static_cast<double>(chain.labels.size()));
+  }
+}
+
+TEST_F(Svg, IsTurnedSoThatWallsAreParallelToTheSheet) {
+  for (const double degrees : {30.0, -40.0, 100.0}) {
+    Mesh mesh = two_rooms();
+    const double angle = degrees * std::numbers::pi / 180;
+    for (auto& v : mesh.vertices) v.head<2>() = Eigen::Rotation2Dd(angle) * v.head<2>();
+    const FloorPlan plan = plan_of(mesh);
+    const double turn = wall_turn(plan);
+    EXPECT_NEAR(turn * 180 / std::numbers::pi, degrees > 45 ? degrees - 90 : degrees, 1e-6);
+    for (const auto& wall : turned(plan.storeys.at(0), turn).walls)
+      EXPECT_NEAR(((wall.to - wall.from).cwiseAbs().minCoeff()), 0, 1e-6);
+  }
+}
+
+TEST_F(Svg, TheSamePlanGivesTheSameBytes) {
+  const FloorPlan plan = plan_of(row_of_rooms(3, 4, 3));
+  EXPECT_EQ(write(plan), write(plan));
+}
+
+TEST_F(Svg, StoreysStandOnOneSheetOrAlone) {
+  MeshBuilder b;
+  b.room(0, 0, 4, 3);
+  b.storey = 1;
+  b.room(0, 0, 4, 3, 2.8, 5.3);
+  const FloorPlan plan = plan_of(b.mesh);
+  const std::string both = write(plan);
+  EXPECT_TRUE(has_text(both, "Storey 0"));
+  EXPECT_TRUE(has_text(both, "Storey 1"));
+  WriteSvg::Params params;
+  params.storey = 1;
+  const std::string one = write(plan, params);
+  EXPECT_FALSE(has_text(one, "Storey 0"));
+  EXPECT_TRUE(has_text(one, "Room 2"));
+  std::filesystem::remove(file);
+  params.storey = 2;
+  EXPECT_EQ(error_of(plan, params), "the plan has no storey 2");
+}
+
+TEST_F(Svg, WhatDoesNotFitIsAnError) {
+  WriteSvg::Params params;
+  params.paper = Paper::a4;
+  params.scale = 50;
+  EXPECT_EQ(error_of(plan_of(row_of_rooms(30, 20, 1)), params), "the plan does not fit on A4 at 1:50");
+}
+
+TEST_F(Svg, AnEmptyPlanSaysSo) {
+  const std::string svg = write({});
+  EXPECT_TRUE(has_text(svg, "The plan is empty: no walls, floors or ceilings."));
+  EXPECT_EQ(host->warnings.size(), 1U);
+  EXPECT_EQ(host->written.size(), 1U);
+}
+
+TEST_F(Svg, PlansOfOneKindOfThingOnlyAreDrawn) {
+  MeshBuilder wall, floor, upright;
+  wall.wall(0, 0, 4, 0);
+  floor.floor(0, 0, 4, 3);
+  upright.wall(0, 0, 0, 4);
+  for (const auto& mesh : {wall.mesh, floor.mesh, upright.mesh})
+    EXPECT_TRUE(has_text(write(plan_of(mesh)), "Storey 0"));
+}
+
+TEST_F(Svg, AFolderThatCannotBeWrittenIsAnError) {
+  test::write_text(host->folder / "file", "");
+  WriteSvg::Params params;
+  params.path.path = "file/plan.svg";
+  EXPECT_THROW(write(plan_of(two_rooms()), params), Error);
+}
+
+}  // namespace
+}  // namespace atrium::floorplan
