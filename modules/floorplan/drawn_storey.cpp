@@ -90,7 +90,7 @@ void draw_room_labels(SvgCanvas& canvas, const Pen& pen, const PlanStorey& store
     const std::string area = fmt::format("{:.2f} m\u00B2", room.polygon.area());
     const std::string height = room.height > 0 ? fmt::format("h {:.2f} m", room.height) : std::string();
     const double width = std::max(text_width(room.name, 2.6), text_width(area, 2.2)) + 2;
-    const LabelPlace place = label_place(room.polygon, Eigen::Vector2d(width, 15) * pen.mm());
+    const LabelPlace place = label_place(room.polygon, Eigen::Vector2d(width, 15) * pen.mm(), storey.walls);
     const double size = std::max(place.scale, 0.45);  // below, no one could read it
     const Eigen::Vector2d at = pen.at(place.scale > 0 ? place.middle : room.polygon.outline.front());
     canvas.text(at + Eigen::Vector2d(0, -2.2 * size), 3.6 * size, room.name, "font-weight=\"bold\"");

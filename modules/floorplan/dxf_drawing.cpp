@@ -5,6 +5,8 @@
 
 #include <fstream>
 
+#include "graph/api/error.hpp"
+
 namespace atrium::floorplan {
 namespace {
 

@@ -11,7 +11,8 @@ namespace {
 // Scaled so that the label is a square of half side 1: its clearance is then a distance by the largest coordinate.
 class Clearance {
  public:
-  Clearance(const PlanPolygon& room, const Eigen::Vector2d& half) {
+  Clearance(const PlanPolygon& room, const std::vector<PlanWall>& walls, const Eigen::Vector2d& half) {
+    for (const auto& wall : walls) walls_.emplace_back(wall.from.cwiseQuotient(half), wall.to.cwiseQuotient(half));
     add(room.outline, half);
     for (const auto& hole : room.holes) add(hole, half);
   }
@@ -24,6 +25,7 @@ class Clearance {
       if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
         inside = !inside;
     }
+    for (const auto& [a, b] : walls_) nearest = std::min(nearest, distance(p, a, b));
     return inside ? nearest : -nearest;
   }
 
@@ -43,15 +45,15 @@ class Clearance {
         least = std::min(least, (from + share * d).cwiseAbs().maxCoeff());
     return least;
   }
-  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> edges_;
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> edges_, walls_;
 };
 
 }  // namespace
 
-LabelPlace label_place(const PlanPolygon& room, const Eigen::Vector2d& size) {
+LabelPlace label_place(const PlanPolygon& room, const Eigen::Vector2d& size, const std::vector<PlanWall>& walls) {
   constexpr int steps = 40;
   constexpr double roomy = 1.4;  // beyond this, the middle counts more than more room
-  const Clearance clearance(room, 0.5 * size);
+  const Clearance clearance(room, walls, 0.5 * size);
   Bounds2 box;
   for (const auto& p : room.outline) box.add(p);
   const Eigen::Vector2d centre = 0.5 * (box.low + box.high);

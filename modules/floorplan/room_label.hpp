@@ -4,12 +4,12 @@
 namespace atrium::floorplan {
 
 /// The middle of the room's roomiest place for a box of the given proportions: of a raster of points, the one about
-/// which the largest such box (in metres, `size` times the result's `scale`, at most 1) keeps clear of the room's
-/// edges.
+/// which the largest such box (in metres, `size` times the result's `scale`, at most 1) keeps clear of the room's edges
+/// and of walls that stand in it.
 struct LabelPlace {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   double scale = 0;  ///< 0: there is no place
 };
-LabelPlace label_place(const PlanPolygon& room, const Eigen::Vector2d& size);
+LabelPlace label_place(const PlanPolygon& room, const Eigen::Vector2d& size, const std::vector<PlanWall>& walls);
 
 }  // namespace atrium::floorplan
