@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "modules/metric/mesh_samples.hpp"
 #include "modules/metric/point_distance.hpp"
@@ -15,13 +16,25 @@ constexpr std::size_t chunk_size = 8192;
 constexpr double high = 0.95;  // the quantile
 
 struct Summary {
-  double mean = 0, rms = 0, p95 = 0, max = 0;
+  double mean = 0, rms = 0, median = 0, p95 = 0, trimmed_rms = 0, max = 0, beyond = 0;
+  std::optional<double> within_rms;  // none if nothing is within the limit
 };
 
+// The k-th of the distances, counted from 1, for the share of all of them.
+float quantile(std::vector<float>& distances, double share) {
+  const auto k = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(distances.size())));
+  const auto at = distances.begin() + std::max<std::ptrdiff_t>(k, 1) - 1;
+  std::nth_element(distances.begin(), at, distances.end());
+  return *at;
+}
+
 // Of distances that all count the same. Partial sums are joined in order, so threads change no bit.
-Summary summarise(std::vector<float> distances, const Context& context) {
+Summary summarise(const std::vector<float>& distances, double limit, const Context& context) {
+  std::vector<float> copy = distances;
+  const float median = quantile(copy, 0.5), p95 = quantile(copy, high);
   struct Part {
-    double sum = 0, squares = 0;
+    double sum = 0, squares = 0, below_squares = 0, within_squares = 0;
+    std::size_t below = 0, within = 0;
     float max = 0;
   };
   std::vector<Part> parts((distances.size() + chunk_size - 1) / chunk_size);
@@ -32,46 +45,82 @@ Summary summarise(std::vector<float> distances, const Context& context) {
       part.sum += d;
       part.squares += d * d;
       part.max = std::max(part.max, distances[i]);
+      if (distances[i] < p95) {
+        part.below_squares += d * d;
+        ++part.below;
+      }
+      if (d <= limit) {
+        part.within_squares += d * d;
+        ++part.within;
+      }
     }
     parts[chunk] = part;
   });
   Part all;
-  for (const auto& p : parts) all = {all.sum + p.sum, all.squares + p.squares, std::max(all.max, p.max)};
+  for (const auto& p : parts)
+    all = {all.sum + p.sum,
+           all.squares + p.squares,
+           all.below_squares + p.below_squares,
+           all.within_squares + p.within_squares,
+           all.below + p.below,
+           all.within + p.within,
+           std::max(all.max, p.max)};
   const auto n = static_cast<double>(distances.size());
-  const auto at = distances.begin() + static_cast<std::ptrdiff_t>(std::ceil(high * n)) - 1;
-  std::nth_element(distances.begin(), at, distances.end());
-  return {all.sum / n, std::sqrt(all.squares / n), *at, all.max};
+  const double kept = std::max(1.0, std::ceil(high * n)), equal = kept - static_cast<double>(all.below);
+  Summary s{all.sum / n, std::sqrt(all.squares / n), median, p95};
+  s.trimmed_rms = std::sqrt((all.below_squares + equal * static_cast<double>(p95) * p95) / kept);
+  s.max = all.max;
+  s.beyond = (n - static_cast<double>(all.within)) / n;
+  if (all.within > 0) s.within_rms = std::sqrt(all.within_squares / static_cast<double>(all.within));
+  return s;
 }
 
-Summary summarise(const std::vector<double>& distances, const std::vector<double>& weights) {
-  Summary s;
-  double total = 0;
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    total += weights[i];
-    s.mean += weights[i] * distances[i];
-    s.rms += weights[i] * distances[i] * distances[i];
-    s.max = std::max(s.max, distances[i]);
-  }
-  s.mean /= total;
-  s.rms = std::sqrt(s.rms / total);
+// Of distances that count by their weights.
+Summary summarise(const std::vector<double>& distances, const std::vector<double>& weights, double limit) {
   std::vector<std::uint32_t> order(distances.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return distances[a] != distances[b] ? distances[a] < distances[b] : a < b;
   });
-  double passed = 0;
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  Summary s;
+  double passed = 0, squares = 0, within = 0;
+  bool past_half = false, past_high = false;
   for (const auto i : order) {
+    const double d = distances[i];
     passed += weights[i];
-    s.p95 = distances[i];
-    if (passed >= high * total) break;
+    squares += weights[i] * d * d;
+    s.mean += weights[i] * d / total;
+    s.max = d;
+    if (d <= limit) {
+      within = passed;
+      s.within_rms = squares;
+    }
+    if (!past_half) s.median = d;
+    past_half = passed >= 0.5 * total;
+    if (past_high) continue;
+    s.p95 = d;
+    past_high = passed >= high * total;
+    // Of the last one only the part counts that fills up the share.
+    s.trimmed_rms =
+        std::sqrt((squares - std::max(0.0, passed - high * total) * d * d) / std::min(passed, high * total));
   }
+  s.rms = std::sqrt(squares / total);
+  s.beyond = std::max(0.0, total - within) / total;
+  s.within_rms = within > 0 ? std::optional(std::sqrt(*s.within_rms / within)) : std::nullopt;
   return s;
 }
 
 void report(Metrics& metrics, const std::string& name, const Summary& s, double diagonal) {
-  const std::array<std::pair<const char*, double>, 4> values{
-      {{"mean", s.mean}, {"rms", s.rms}, {"p95", s.p95}, {"max", s.max}}};
+  const std::array<std::pair<const char*, double>, 6> values{{{"mean", s.mean},
+                                                              {"rms", s.rms},
+                                                              {"median", s.median},
+                                                              {"p95", s.p95},
+                                                              {"trimmed_rms", s.trimmed_rms},
+                                                              {"max", s.max}}};
   for (const auto& [key, value] : values) metrics.values.push_back({name + "." + key, value, "m"});
+  metrics.values.push_back({name + ".beyond", s.beyond, ""});
+  if (s.within_rms) metrics.values.push_back({name + ".within_rms", *s.within_rms, "m"});
   for (const auto& [key, value] : values)
     metrics.values.push_back({name + ".relative." + key, diagonal > 0 ? value / diagonal : 0, ""});
 }
@@ -98,21 +147,52 @@ Summary mesh_to_cloud(const Mesh& mesh, const PointGrid& grid, const Distance::P
         for (std::size_t i = begin; i < end; ++i) distances[i] = search.nearest(samples.points[i]);
       },
       1024);
-  return summarise(distances, samples.weights);
+  return summarise(distances, samples.weights, params.limit);
 }
 
-double total_area(const Mesh& mesh) { return sample_mesh(mesh, 1e9, 1).area; }
+// About the cloud's origin, so that single precision holds for both.
+Mesh about(const Mesh& mesh, const Eigen::Vector3d& origin, const std::string& what) {
+  check_mesh(mesh, what);
+  Mesh result;
+  result.vertices = vertices_about(mesh, origin);
+  result.triangles = mesh.triangles;
+  return result;
+}
+
+bool has_area(const Mesh& mesh) { return sample_mesh(mesh, 1e9, 1).area > 0; }
+
+// What concerns the structure alone: the points near the true one, and the reconstructed one.
+void report_structure(Metrics& metrics, const Distance::In& in, const PointGrid& grid, double diagonal,
+                      const Distance::Params& params, const Context& context) {
+  const Mesh structure = about(*in.structure, in.cloud->origin, "the structure");
+  if (!has_area(structure)) {
+    context.warn("the structure has no area: its distances are left out");
+    return;
+  }
+  if (in.truth) {
+    const Mesh truth = about(*in.truth, in.cloud->origin, "the truth");
+    if (!has_area(truth)) throw Error("the truth has no area: no point is near it");
+    const auto to_truth = distances_to_mesh(grid, {truth.vertices, truth.triangles}, context);
+    const auto to_structure = distances_to_mesh(grid, {structure.vertices, structure.triangles}, context);
+    std::vector<float> kept;
+    for (std::size_t i = 0; i < to_truth.size(); ++i)
+      if (to_truth[i] <= params.truth_distance) kept.push_back(to_structure[i]);
+    if (kept.empty())
+      context.warn("no point of the cloud is near the true structure: is it in the same frame?");
+    else
+      report(metrics, "distance.structure.cloud_to_mesh", summarise(kept, params.limit, context), diagonal);
+  }
+  report(metrics, "distance.structure.mesh_to_cloud", mesh_to_cloud(structure, grid, params, context), diagonal);
+}
 
 }  // namespace
 
 Distance::Out Distance::run(const In& in, const Params& params, Context& context) {
   if (in.cloud->points.empty()) throw Error("the cloud has no points: it has no distance to the mesh");
-  check_mesh(*in.mesh, "the mesh");
-  // About the cloud's origin, so that single precision holds for both.
-  Mesh mesh;
-  mesh.vertices = vertices_about(*in.mesh, in.cloud->origin);
-  mesh.triangles = in.mesh->triangles;
-  if (!(total_area(mesh) > 0))
+  if (in.truth && !in.structure)
+    throw Error("truth is wired, but structure is not", "wire both: the structure's points are those near the truth");
+  const Mesh mesh = about(*in.mesh, in.cloud->origin, "the mesh");
+  if (!has_area(mesh))
     throw Error("the mesh has no area: it has no distance to the cloud",
                 "look at the step that made the mesh; it gave " + std::to_string(mesh.triangles.size()) + " triangles");
   Eigen::AlignedBox3f cloud_box;
@@ -128,8 +208,10 @@ Distance::Out Distance::run(const In& in, const Params& params, Context& context
   const TriangleTree tree(mesh.vertices, mesh.triangles);
   Out out;
   out.metrics.values.push_back({"distance.diagonal", diagonal, "m"});
-  report(out.metrics, "distance.cloud_to_mesh", summarise(distances_to_mesh(grid, tree, context), context), diagonal);
+  const auto distances = distances_to_mesh(grid, tree, context);
+  report(out.metrics, "distance.cloud_to_mesh", summarise(distances, params.limit, context), diagonal);
   report(out.metrics, "distance.mesh_to_cloud", mesh_to_cloud(mesh, grid, params, context), diagonal);
+  if (in.structure) report_structure(out.metrics, in, grid, diagonal, params, context);
   return out;
 }
 

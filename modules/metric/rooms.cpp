@@ -9,14 +9,14 @@
 #include <numbers>
 #include <string>
 
+#include "modules/metric/outline_corners.hpp"
+
 namespace atrium::metric {
 namespace {
 
 namespace bg = boost::geometry;
 using Point = bg::model::d2::point_xy<double>;
 using Polygon = bg::model::polygon<Point, false, false>;  // counter-clockwise, not closed
-
-constexpr double straight = 0.001;  // metres
 
 struct Room {
   Polygon polygon;
@@ -25,25 +25,6 @@ struct Room {
   bool valid = true;
   double area() const { return valid ? bg::area(polygon) : 0; }
 };
-
-double line_distance(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const Eigen::Vector2d d = b - a, e = p - a;
-  return d.norm() > 0 ? std::abs(d.x() * e.y() - d.y() * e.x()) / d.norm() : e.norm();
-}
-
-// Leaves out, one after the other, corners on the line of their neighbours.
-std::vector<Eigen::Vector2d> true_corners(std::vector<Eigen::Vector2d> ring) {
-  for (std::size_t i = 0; i < ring.size() && ring.size() > 3;) {
-    const auto n = ring.size();
-    if (line_distance(ring[i], ring[(i + n - 1) % n], ring[(i + 1) % n]) <= straight) {
-      ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
-      i = i > 0 ? i - 1 : 0;
-    } else {
-      ++i;
-    }
-  }
-  return ring;
-}
 
 Room room_of(const PlanPolygon& polygon, double floor, const Eigen::Vector2d& shift, const std::string& what) {
   Room room;
@@ -63,7 +44,7 @@ Room room_of(const PlanPolygon& polygon, double floor, const Eigen::Vector2d& sh
   room.valid = polygon.outline.size() > 2 && bg::is_valid(room.polygon);
   std::vector<Eigen::Vector2d> ring;
   for (const auto& p : room.polygon.outer()) ring.emplace_back(p.x(), p.y());
-  room.corners = true_corners(std::move(ring));
+  room.corners = corners_of(std::move(ring));
   return room;
 }
 

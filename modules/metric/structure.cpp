@@ -13,6 +13,8 @@
 namespace atrium::metric {
 namespace {
 
+// A wall that stands 3 cm off lies within 3 cm, however its coordinates were rounded.
+constexpr double rounding = 1e-9;  // metres
 constexpr std::array<SurfaceClass, 3> structural{SurfaceClass::wall, SurfaceClass::floor, SurfaceClass::ceiling};
 
 // The triangles of one mesh that count, about the truth's origin.
@@ -53,7 +55,7 @@ std::vector<double> distances(const Side& from, const Side& to, bool same_class,
                               const Structure::Params& params, const Context& context) {
   const double least_cosine = std::cos(params.max_angle * std::numbers::pi / 180) - 1e-12;
   std::vector<double> result(from.samples.points.size(), std::numeric_limits<double>::infinity());
-  const double limit = reach * reach * (1 + 1e-9);
+  const double limit = (reach + rounding) * (reach + rounding) * (1 + 1e-9);
   context.parallel_for(
       result.size(),
       [&](std::size_t begin, std::size_t end) {
@@ -73,47 +75,55 @@ std::vector<double> distances(const Side& from, const Side& to, bool same_class,
 
 using Filter = std::optional<SurfaceClass>;
 
-bool counts(const Side& side, std::size_t sample, const Filter& surface) {
-  return !surface || side.mesh.classes[side.samples.triangles[sample]] == *surface;
-}
-
-double area_of(const Side& side, const Filter& surface) {
-  double sum = 0;
-  for (std::size_t i = 0; i < side.samples.points.size(); ++i)
-    if (counts(side, i, surface)) sum += side.samples.weights[i];
-  return sum;
-}
-
-double area_within(const Side& side, const std::vector<double>& distance, const Filter& surface, double buffer) {
-  double sum = 0;
-  for (std::size_t i = 0; i < distance.size(); ++i)
-    if (distance[i] <= buffer && counts(side, i, surface)) sum += side.samples.weights[i];
-  return sum;
-}
-
-/// Median by area of the distances that are within the buffer; none if there are none.
-std::optional<double> median_within(const Side& side, const std::vector<double>& distance, const Filter& surface,
-                                    double buffer) {
-  std::vector<std::pair<double, double>> inside;  // distance, weight
-  double total = 0, passed = 0;
-  for (std::size_t i = 0; i < distance.size(); ++i) {
-    if (!(distance[i] <= buffer) || !counts(side, i, surface)) continue;
-    inside.emplace_back(distance[i], side.samples.weights[i]);
-    total += side.samples.weights[i];
+// How much of one side's area (of one class, if asked for) lies within any distance of the other.
+class Profile {
+ public:
+  Profile(const Side& side, const std::vector<double>& distance, const Filter& surface) {
+    std::vector<std::pair<double, double>> found;  // distance, weight
+    for (std::size_t i = 0; i < distance.size(); ++i) {
+      if (surface && side.mesh.classes[side.samples.triangles[i]] != *surface) continue;
+      if (!(distance[i] < std::numeric_limits<double>::infinity()))
+        area_ += side.samples.weights[i];
+      else
+        found.emplace_back(distance[i], side.samples.weights[i]);
+    }
+    std::sort(found.begin(), found.end());
+    double passed = 0;
+    for (const auto& [d, weight] : found) {
+      distances_.push_back(d);
+      passed_.push_back(passed += weight);
+    }
+    area_ += passed;  // the same sum, so that a share of all is exactly 1
   }
-  std::sort(inside.begin(), inside.end());
-  for (const auto& [d, weight] : inside) {
-    passed += weight;
-    if (passed >= total / 2) return d;
+  double area() const { return area_; }
+  double within(double buffer) const {
+    const auto n = count_within(buffer);
+    return n > 0 ? passed_[n - 1] : 0;
   }
-  return {};
-}
+  /// Median by area of the distances that are within the buffer; none if there are none.
+  std::optional<double> median_within(double buffer) const {
+    const auto n = count_within(buffer);
+    if (n == 0) return {};
+    const auto half =
+        std::lower_bound(passed_.begin(), passed_.begin() + static_cast<std::ptrdiff_t>(n), passed_[n - 1] / 2);
+    return distances_[static_cast<std::size_t>(half - passed_.begin())];
+  }
 
-std::string name_of_buffer(double buffer) {
+ private:
+  std::size_t count_within(double buffer) const {
+    return static_cast<std::size_t>(std::upper_bound(distances_.begin(), distances_.end(), buffer + rounding) -
+                                    distances_.begin());
+  }
+  std::vector<double> distances_, passed_;
+  double area_ = 0;
+};
+
+std::string name_of_buffer(double buffer, std::size_t digits) {
   const double millimetres = std::round(buffer * 1000);
   if (millimetres < 1 || std::abs(buffer * 1000 - millimetres) > 1e-6)
     throw Error("a buffer of " + std::to_string(buffer) + " m", "buffers are whole millimetres, from 1 mm");
-  return "b" + std::to_string(static_cast<long>(millimetres)) + "mm";
+  const std::string number = std::to_string(static_cast<long>(millimetres));
+  return "b" + std::string(digits > number.size() ? digits - number.size() : 0, '0') + number + "mm";
 }
 
 struct Comparison {
@@ -121,22 +131,43 @@ struct Comparison {
   std::vector<double> from_truth, from_mesh;
 };
 
-void report(Metrics& metrics, const std::string& group, const Comparison& c, const Filter& surface,
-            const std::vector<double>& buffers) {
-  const double true_area = area_of(c.truth, surface), area = area_of(c.mesh, surface);
-  if (!(true_area > 0) && !(area > 0)) return;
-  metrics.values.push_back({group + ".area.true", true_area, "m2"});
-  metrics.values.push_back({group + ".area.reconstructed", area, "m2"});
+void report_buffers(Metrics& metrics, const std::string& group, const Profile& truth, const Profile& mesh,
+                    const std::vector<double>& buffers, std::size_t digits) {
   for (const double buffer : buffers) {
-    const std::string name = group + "." + name_of_buffer(buffer);
-    const auto share = [&](const char* key, double part, double whole) {
-      if (whole > 0) metrics.values.push_back({name + "." + key, std::min(1.0, part / whole), ""});
+    const std::string name = group + "." + name_of_buffer(buffer, digits);
+    const auto share = [&](const char* key, const Profile& profile) {
+      if (profile.area() > 0)
+        metrics.values.push_back({name + "." + key, std::min(1.0, profile.within(buffer) / profile.area()), ""});
     };
-    share("completeness", area_within(c.truth, c.from_truth, surface, buffer), true_area);
-    share("correctness", area_within(c.mesh, c.from_mesh, surface, buffer), area);
-    if (const auto median = median_within(c.mesh, c.from_mesh, surface, buffer))
-      metrics.values.push_back({name + ".accuracy", *median, "m"});
+    share("completeness", truth);
+    share("correctness", mesh);
+    if (const auto median = mesh.median_within(buffer)) metrics.values.push_back({name + ".accuracy", *median, "m"});
   }
+}
+
+struct Buffers {
+  std::vector<double> asked, curve;
+};
+
+void report(Structure::Out& out, const Comparison& c, const Filter& surface, const Buffers& buffers) {
+  const Profile truth(c.truth, c.from_truth, surface), mesh(c.mesh, c.from_mesh, surface);
+  if (!(truth.area() > 0) && !(mesh.area() > 0)) return;
+  const std::string own = surface ? std::string(name_of(*surface)) : "";
+  const std::string group = surface ? "structure." + own : "structure";
+  out.metrics.values.push_back({group + ".area.true", truth.area(), "m2"});
+  out.metrics.values.push_back({group + ".area.reconstructed", mesh.area(), "m2"});
+  report_buffers(out.metrics, group, truth, mesh, buffers.asked, 0);
+  report_buffers(out.curve, "structure_curve." + (surface ? own : "total"), truth, mesh, buffers.curve, 3);
+}
+
+Buffers buffers_of(const Structure::Params& params) {
+  if (params.buffers.empty()) throw Error("no buffers", "give at least one distance");
+  Buffers buffers{params.buffers, {}};
+  const auto steps = static_cast<std::size_t>(std::floor(params.curve_reach / params.curve_step + 1e-9));
+  for (std::size_t i = 1; i <= steps; ++i) buffers.curve.push_back(params.curve_step * static_cast<double>(i));
+  for (const auto* list : {&buffers.asked, &buffers.curve})
+    for (const double b : *list) name_of_buffer(b, 0);
+  return buffers;
 }
 
 }  // namespace
@@ -145,24 +176,23 @@ Structure::Out Structure::run(const In& in, const Params& params, Context& conte
   if (static_cast<bool>(in.truth) == static_cast<bool>(in.truth_mesh))
     throw Error(in.truth ? "both truth and truth_mesh are wired" : "neither truth nor truth_mesh is wired",
                 "wire one of them: truth of a simulated scene, or truth_mesh read from a file");
-  if (params.buffers.empty()) throw Error("no buffers", "give at least one distance");
-  for (const double b : params.buffers) name_of_buffer(b);
+  const Buffers buffers = buffers_of(params);
   const Mesh& given = in.truth ? in.truth->mesh : *in.truth_mesh;
   const Side truth = side_of(given, given.origin, params, context, "the truth");
   const Side mesh = side_of(*in.mesh, given.origin, params, context, "the mesh");
   if (!(truth.samples.area > 0)) throw Error("the truth has no walls, floors or ceilings: nothing to compare with");
 
-  const double reach = *std::max_element(params.buffers.begin(), params.buffers.end());
+  const double reach = std::max(*std::max_element(buffers.asked.begin(), buffers.asked.end()),
+                                buffers.curve.empty() ? 0 : buffers.curve.back());
   const auto compare = [&](bool same_class) {
     return Comparison{truth, mesh, distances(truth, mesh, same_class, reach, params, context),
                       distances(mesh, truth, same_class, reach, params, context)};
   };
   Out out;
-  report(out.metrics, "structure", compare(false), {}, params.buffers);
+  report(out, compare(false), {}, buffers);
   if (!truth.has_classes() || !mesh.has_classes()) return out;
   const Comparison by_class = compare(true);
-  for (const auto surface : structural)
-    report(out.metrics, "structure." + std::string(name_of(surface)), by_class, surface, params.buffers);
+  for (const auto surface : structural) report(out, by_class, surface, buffers);
   return out;
 }
 

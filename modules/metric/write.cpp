@@ -48,14 +48,28 @@ struct Names {
   }
 };
 
+std::string number(double value) { return std::isfinite(value) ? Json(value).dump() : ""; }
+
+// A field of a CSV line (RFC 4180): quoted where it has to be.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+bool wants_csv(const std::string& path) { return path.size() >= 4 && path.compare(path.size() - 4, 4, ".csv") == 0; }
+
 }  // namespace
 
 Write::Out Write::run(const In& in, const Params& params, Context& context) {
   Json root = Json::object();
+  std::string csv = "name,value,unit\n";
   Names names;
   for (std::size_t i = 0; i < in.metrics.size(); ++i)
     for (const auto& metric : in.metrics[i]->values) {
       const auto parts = parts_of(metric.name);
+      csv += field(metric.name) + "," + number(metric.value) + "," + field(metric.unit) + "\n";
       names.add(metric.name, parts, i + 1);
       Json* at = &root;
       for (const auto& part : parts) at = &(*at)[part];
@@ -65,7 +79,7 @@ Write::Out Write::run(const In& in, const Params& params, Context& context) {
     }
   const auto path = context.output(params.path.path);
   AtomicFile file(path);
-  file.write(root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  file.write(wants_csv(params.path.path) ? csv : root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   file.commit();
   context.wrote(path);
   return {};

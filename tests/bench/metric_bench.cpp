@@ -54,7 +54,7 @@ const Case& scanned(std::int64_t points) {
 void distance(benchmark::State& state, Input<Mesh> Case::*mesh) {
   const Case& c = scanned(state.range(0));
   Context context;
-  for (auto _ : state) benchmark::DoNotOptimize(metric::Distance::run({c.cloud, c.*mesh}, {}, context));
+  for (auto _ : state) benchmark::DoNotOptimize(metric::Distance::run({c.cloud, c.*mesh, {}, {}}, {}, context));
   state.SetItemsProcessed(state.iterations() * state.range(0));
   state.counters["triangles"] = static_cast<double>((c.*mesh)->triangles.size());
 }

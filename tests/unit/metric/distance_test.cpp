@@ -18,7 +18,7 @@ using V = Eigen::Vector3d;
 
 Metrics distance(const Cloud& cloud, const Mesh& mesh, const Distance::Params& params = {}) {
   Context context;
-  return Distance::run({input(cloud), input(mesh)}, params, context).metrics;
+  return Distance::run({input(cloud), input(mesh), {}, {}}, params, context).metrics;
 }
 Mesh square(double size, double height) {
   Mesh m;
@@ -63,6 +63,69 @@ TEST(MetricDistance, HalfTheSquareMissing) {
   const auto n = distance(lattice(100, 5, 0), square(10, 0));
   EXPECT_LT(value(n, "distance.cloud_to_mesh.max"), 1e-6);
   EXPECT_NEAR(value(n, "distance.mesh_to_cloud.max"), std::sqrt(2) * 5.025, 1e-5);
+}
+
+TEST(MetricDistance, ThreeWildPointsSpoilTheRmsOnly) {
+  // 40,000 points 1 cm above a square and three 100 m above it.
+  Cloud cloud = lattice(200, 10, 0.01);
+  for (int i = 0; i < 3; ++i) cloud.points.emplace_back(5, 5, 100);
+  const auto m = distance(cloud, square(10, 0));
+  const std::string name = "distance.cloud_to_mesh.";
+  EXPECT_NEAR(value(m, name + "rms"), std::sqrt((40000 * 0.0001 + 3 * 10000) / 40003), 1e-6);  // 0.87 m
+  for (const char* robust : {"median", "p95", "trimmed_rms", "within_rms"})
+    EXPECT_NEAR(value(m, name + robust), 0.01, 1e-8) << robust;
+  EXPECT_NEAR(value(m, name + "beyond"), 3.0 / 40003, 1e-12);
+  EXPECT_NEAR(value(m, "distance.mesh_to_cloud.beyond"), 0, 1e-12);
+  // The other way round: a mesh with 3 m² far away from everything, of 103.
+  Mesh mesh = square(10, 0);
+  add_rectangle(mesh, V(0, 0, 50), V(1, 0, 0), V(0, 3, 0), SurfaceClass::wall, 1);
+  const auto n = distance(lattice(200, 10, 0.01), mesh);
+  EXPECT_NEAR(value(n, "distance.mesh_to_cloud.beyond"), 3.0 / 103, 1e-9);
+  EXPECT_LT(value(n, "distance.mesh_to_cloud.trimmed_rms"), 0.05);
+  EXPECT_LT(value(n, "distance.mesh_to_cloud.within_rms"), 0.05);
+  EXPECT_GT(value(n, "distance.mesh_to_cloud.rms"), 8);
+}
+
+TEST(MetricDistance, QuantilesOfAKnownSpread) {
+  // Distances 1, 2, … 100 cm, once each.
+  Cloud cloud;
+  for (int i = 1; i <= 100; ++i) cloud.points.emplace_back(5, 5, 0.01F * static_cast<float>(i));
+  Distance::Params params;
+  params.limit = 0.405;
+  const auto m = distance(cloud, square(10, 0), params);
+  EXPECT_NEAR(value(m, "distance.cloud_to_mesh.median"), 0.50, 1e-6);
+  EXPECT_NEAR(value(m, "distance.cloud_to_mesh.p95"), 0.95, 1e-6);
+  EXPECT_NEAR(value(m, "distance.cloud_to_mesh.beyond"), 0.60, 1e-12);
+  EXPECT_NEAR(value(m, "distance.cloud_to_mesh.trimmed_rms"), 0.01 * std::sqrt(96.0 * 191 / 6), 1e-6);
+  EXPECT_NEAR(value(m, "distance.cloud_to_mesh.within_rms"), 0.01 * std::sqrt(41.0 * 81 / 6), 1e-6);
+  params.limit = 0.001;
+  EXPECT_FALSE(has(distance(cloud, square(10, 0), params), "distance.cloud_to_mesh.within_rms"));
+}
+
+TEST(MetricDistance, StructureAndEverythingApart) {
+  // The floor's points lie 1 cm above it, a table's at 0.7 m; the model has the floor, and the table 10 cm too high.
+  Cloud cloud = lattice(100, 10, 0.01);
+  for (const auto& p : lattice(50, 2, 0.7).points) cloud.points.push_back(p);
+  const Mesh structure = square(10, 0);
+  Mesh all = structure;
+  add_rectangle(all, V(0, 0, 0.8), V(2, 0, 0), V(0, 2, 0), SurfaceClass::object, -1);
+  Context context;
+  const OptionalInput<Mesh> floor(input(structure));
+  const auto m = Distance::run({input(cloud), input(all), floor, floor}, {}, context).metrics;
+  EXPECT_NEAR(value(m, "distance.cloud_to_mesh.max"), 0.1, 1e-6);
+  EXPECT_NEAR(value(m, "distance.structure.cloud_to_mesh.max"), 0.01, 1e-6);
+  EXPECT_LT(value(m, "distance.structure.mesh_to_cloud.max"), 0.08);
+  EXPECT_GT(value(m, "distance.mesh_to_cloud.max"), 0.0999);
+  // Without a truth it is not known which points are the structure's.
+  const auto n = Distance::run({input(cloud), input(all), floor, {}}, {}, context).metrics;
+  EXPECT_FALSE(has(n, "distance.structure.cloud_to_mesh.max"));
+  EXPECT_TRUE(has(n, "distance.structure.mesh_to_cloud.max"));
+  EXPECT_THROW(Distance::run({input(cloud), input(all), {}, floor}, {}, context), Error);
+  EXPECT_THROW(Distance::run({input(cloud), input(all), floor, OptionalInput<Mesh>(input(Mesh{}))}, {}, context),
+               Error);
+  EXPECT_FALSE(
+      has(Distance::run({input(cloud), input(all), OptionalInput<Mesh>(input(Mesh{})), {}}, {}, context).metrics,
+          "distance.structure.mesh_to_cloud.max"));
 }
 
 TEST(MetricDistance, OriginsAreTakenIntoAccount) {

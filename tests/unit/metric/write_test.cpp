@@ -74,6 +74,16 @@ TEST_F(MetricWrite, NestsByDotsInOrder) {
   EXPECT_TRUE(host->warnings.empty());
 }
 
+TEST_F(MetricWrite, LinesForSpreadsheets) {
+  Write::In in{
+      {input(Metrics{{{"a.b", 0.1, "m"}, {"a.c", std::numeric_limits<double>::infinity(), ""}, {"d,\"e", 3, ""}}})}};
+  Write::run(in, {{"curve.csv"}}, context);
+  std::ifstream file(host->folder / "curve.csv");
+  std::stringstream text;
+  text << file.rdbuf();
+  EXPECT_EQ(text.str(), "name,value,unit\na.b,0.1,m\na.c,,\n\"d,\"\"e\",3.0,\n");
+}
+
 TEST_F(MetricWrite, NumbersReadBackToTheSameDouble) {
   for (const double x : {1.0 / 3, 0.1 + 0.2, 5e-324, 1.7976931348623157e308, 123456789.123456789, -0.0})
     EXPECT_EQ(nlohmann::json::parse(write({{{"x", x, ""}}}))["x"]["value"].get<double>(), x);
