@@ -92,10 +92,16 @@ Region seen_from_above(const std::vector<Surface>& surfaces) {
   return closed(united(rings), abutting);
 }
 
-Region ground_of(const PlanStorey& storey, RoomExtent extent) {
-  if (storey.floors.empty()) return storey.ceilings;
-  if (extent == RoomExtent::floors) return storey.floors;
-  return closed(joined(storey.floors, storey.ceilings), abutting);
+// What rooms are cut from: it reaches to the walls.
+Region ground_of(const PlanStorey& storey, const Project::Params& params) {
+  Region ground = storey.floors;
+  if (ground.empty()) ground = storey.ceilings;
+  if (params.room_extent == RoomExtent::floors_and_ceilings) ground = joined(ground, storey.ceilings);
+  if (ground.empty()) return ground;
+  std::vector<PlanRing> lines;
+  for (const auto& wall : storey.walls)
+    if (wall.thickness <= 0) lines.push_back(strip(wall.from, wall.to, abutting, 0));
+  return closed(joined(joined(ground, storey.bodies), united(lines)), std::max(params.floor_gap, abutting));
 }
 
 PlanStorey storey_of(const std::vector<Surface>& surfaces, const Project::Params& params, const Context& context) {
@@ -115,7 +121,7 @@ PlanStorey storey_of(const std::vector<Surface>& surfaces, const Project::Params
   storey.ceilings = seen_from_above(ceilings);
   if (floors.empty() && !ceilings.empty())
     context.warn(fmt::format("storey {} has no floor: its rooms are drawn from its ceilings", storey.index));
-  storey.rooms = rooms_of(ground_of(storey, params.room_extent), storey, faces,
+  storey.rooms = rooms_of(ground_of(storey, params), storey, faces,
                           {params.max_opening, params.min_room_width, params.min_room_area});
   for (auto& room : storey.rooms) room.height = std::max(0.0, height_of(room, ceilings, storey.elevation));
   if (storey.walls.empty()) context.warn(fmt::format("storey {} has no walls", storey.index));

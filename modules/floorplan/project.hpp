@@ -27,7 +27,7 @@ enum class RoomExtent { floors, floors_and_ceilings };
 ///   medians by area; without a floor, the lowest place of its walls counts as the floor.
 /// - Rooms: connected parts of the floors between the walls, the largest first, numbered through all storeys. Ceilings
 ///   count as well (room_extent), since furniture hides the floor below it; but a room is one third floor at least, and
-///   `floors` stays what was seen. Openings
+///   `floors` stays what was seen. Gaps up to floor_gap, to walls too, are closed. Openings
 ///   of up to max_opening in a face (doors) divide rooms. A storey without floors has its rooms drawn from its
 ///   ceilings, with a warning.
 ///
@@ -54,6 +54,7 @@ struct Project {
     double min_wall_length = 0.10;
     double max_opening = 1.25;
     RoomExtent room_extent = RoomExtent::floors_and_ceilings;
+    double floor_gap = 0.15;
     double min_room_width = 0.40;
     double min_room_area = 1.0;
     double upright_tolerance = 1;
@@ -82,6 +83,8 @@ struct Project {
       param(&Params::room_extent, "room_extent",
             {{"floors", RoomExtent::floors}, {"floors_and_ceilings", RoomExtent::floors_and_ceilings}},
             "What rooms are made of: the floors alone, or what floor or ceiling covers."),
+      param(&Params::floor_gap, "floor_gap", metres, within(0, 5),
+            "Floors that end short of a wall, or have a gap, by at most this are closed for the rooms."),
       param(&Params::min_room_width, "min_room_width", metres, within(0, 100),
             "What is narrower is no room and joins none: slivers between walls."),
       param(&Params::min_room_area, "min_room_area", square_metres, within(0, 1e6), "What is smaller is no room."),

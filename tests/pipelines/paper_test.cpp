@@ -9,8 +9,9 @@
 namespace atrium::test {
 namespace {
 
-const std::vector<std::string> results{"structure.ply", "objects.ply",  "scene.ply", "scene_without_ceiling.ply",
-                                       "planes.vg",     "metrics.json", "scene.glb"};
+const std::vector<std::string> results{"structure.ply", "objects.ply",      "scene.ply", "scene_without_ceiling.ply",
+                                       "planes.vg",     "metrics.json",     "scene.glb", "floorplan.svg",
+                                       "floorplan.dxf", "floorplan.geojson"};
 
 std::string simulate(const TemporaryFolder& scratch, const std::vector<std::string>& settings) {
   const auto run = run_pipeline_file("simulate.yaml", settings, scratch / "scan");
