@@ -73,6 +73,7 @@ std::vector<Surface> of_class(const std::vector<Surface>& surfaces, SurfaceClass
 
 double level_of(const std::vector<Surface>& surfaces) {
   std::vector<Weighted> levels;
+  levels.reserve(surfaces.size());
   for (const auto& s : surfaces) levels.push_back({s.centre.z(), s.area});
   return median(std::move(levels));
 }
