@@ -23,6 +23,7 @@ std::vector<GlbGroup> glb_groups(const Mesh& mesh) {
     last->triangles.push_back(t);
   }
   std::vector<GlbGroup> result;
+  result.reserve(groups.size());
   for (auto& [key, group] : groups) result.push_back(std::move(group));
   return result;
 }

@@ -71,6 +71,7 @@ BakeTextures::Out BakeTextures::run(const In& in, const Params& params, Context&
                          static_cast<double>(params.max_pixels)};
   auto images = texture_frames(*in.mesh, size, context);
   std::vector<TextureView> views;
+  views.reserve(images.size());
   for (const auto& image : images) views.emplace_back(image, cloud.origin - in.mesh->origin, cloud, params.distance);
   const auto points = points_over_all(views, cloud, context);
   std::vector<char> painted(images.size());
