@@ -9,18 +9,24 @@
 #include <vtkObjectFactory.h>
 
 #include <array>
+#include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "graph/api/error.hpp"
+#include "modules/render/x_window.hpp"
 
 namespace atrium::render {
 namespace {
 
-[[noreturn]] void no_rendering(const std::string& reason) {
-  throw Error("no picture can be drawn on this machine: " + reason,
-              "install Mesa's software renderer: apt-get install libegl-mesa0 libgl1-mesa-dri");
-}
+/// Why EGL does not do.
+class NoEgl : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+[[noreturn]] void no_rendering(const std::string& reason) { throw NoEgl(reason); }
 
 /// One OpenGL context, for the thread that makes it. It does not outlive the picture: a context that is still there
 /// when the process ends, made by a thread that is gone, corrupts memory in Mesa's exit handlers.
@@ -30,6 +36,20 @@ struct Context {
   EGLContext context = EGL_NO_CONTEXT;
 
   Context() {
+    try {
+      open();
+    } catch (...) {
+      close();
+      throw;
+    }
+  }
+  ~Context() { close(); }
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  void make_current() const { eglMakeCurrent(display, surface, surface, context); }
+
+ private:
+  void open() {
     const auto platform_display =
         reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
     if (platform_display == nullptr) no_rendering("EGL knows no platforms");
@@ -60,18 +80,16 @@ struct Context {
         EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK,
         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     context = eglCreateContext(display, config, EGL_NO_CONTEXT, version.data());
-    if (context == EGL_NO_CONTEXT) no_rendering("no OpenGL 3.2 context can be made");
+    if (surface == EGL_NO_SURFACE || context == EGL_NO_CONTEXT) no_rendering("no OpenGL 3.2 context can be made");
   }
-  ~Context() {
+  void close() const {
+    if (display == EGL_NO_DISPLAY) return;
     eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    eglDestroyContext(display, context);
-    eglDestroySurface(display, surface);
+    if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
+    if (surface != EGL_NO_SURFACE) eglDestroySurface(display, surface);
     eglTerminate(display);
     eglReleaseThread();
   }
-  Context(const Context&) = delete;
-  Context& operator=(const Context&) = delete;
-  void make_current() const { eglMakeCurrent(display, surface, surface, context); }
 };
 
 std::mutex& render_mutex() {
@@ -87,40 +105,64 @@ class SurfacelessWindow : public vtkGenericOpenGLRenderWindow {
   static SurfacelessWindow* New();
   vtkTypeMacro(SurfacelessWindow, vtkGenericOpenGLRenderWindow);
 
-  void MakeCurrent() override { gl.make_current(); }
-  bool IsCurrent() override { return eglGetCurrentContext() == gl.context; }
+  void MakeCurrent() override { gl->make_current(); }
+  bool IsCurrent() override { return eglGetCurrentContext() == gl->context; }
   void OpenGLInitContext() override {
     if (Initialized != 0) return;
     MakeCurrent();
-    glewExperimental = GL_TRUE;
-    // Debian's GLEW loads every entry point and only then reports (4) that it finds no GLX display.
-    const GLenum result = glewInit();
-    if (result != GLEW_OK && result != 4) no_rendering("OpenGL's functions cannot be loaded");
     GlewInitValid = true;
     Initialized = 1;
     MaximumHardwareLineWidth = 1.0F;
   }
 
-  Context gl;
+  std::unique_ptr<Context> gl;
 
  protected:
   SurfacelessWindow() = default;
 };
 vtkStandardNewMacro(SurfacelessWindow);
 
-OffscreenWindow::OffscreenWindow(int width, int height) : window_(nullptr) {
+namespace {
+
+vtkRenderWindow* new_surfaceless_window() {
+  // All that may throw comes before there is a window.
+  auto context = std::make_unique<Context>();
+  context->make_current();
+  glewExperimental = GL_TRUE;
+  // Debian's GLEW loads every entry point and only then reports (4) that it finds no GLX display.
+  const GLenum result = glewInit();
+  if (result != GLEW_OK && result != 4) no_rendering("OpenGL's functions cannot be loaded");
   auto* window = SurfacelessWindow::New();
+  window->gl = std::move(context);
   window->SetOffScreenRendering(1);
   window->SetSwapBuffers(0);
   window->SetFrameBlitModeToNoBlit();
   window->SetMapped(1);
   window->SetIsCurrent(true);
   window->SetReadyForRendering(true);
-  window->SetMultiSamples(0);
-  window->SetSize(width, height);
-  window->MakeCurrent();
-  window->OpenGLInit();
-  window_ = window;
+  return window;
+}
+
+}  // namespace
+
+OffscreenWindow::OffscreenWindow(int width, int height) : window_(nullptr) {
+  std::string reason;
+  try {
+    window_ = new_surfaceless_window();
+  } catch (const NoEgl& problem) {
+    reason = problem.what();
+  }
+  const bool surfaceless = window_ != nullptr;
+  if (!surfaceless) window_ = new_x_window();
+  if (window_ == nullptr)
+    throw Error("no picture can be drawn on this machine: " + reason + ", and there is no X server with OpenGL",
+                "install Mesa's software renderer (apt-get install libegl-mesa0 libgl1-mesa-dri), or run it under a "
+                "virtual X server: xvfb-run -a atrium …");
+  window_->SetMultiSamples(0);
+  window_->SetSize(width, height);
+  if (!surfaceless) return;
+  window_->MakeCurrent();
+  static_cast<SurfacelessWindow*>(window_)->OpenGLInit();
 }
 
 OffscreenWindow::~OffscreenWindow() {

@@ -5,12 +5,12 @@ class vtkRenderWindow;
 
 namespace atrium::render {
 
-/// A VTK render window without a display, on EGL's surfaceless platform (Mesa): needs no X server, no device and no
-/// environment variable. Hold a RenderLock while one exists, and use it on
-/// the thread that made it only.
+/// A VTK render window that shows nothing: on EGL's surfaceless platform (Mesa), which needs no X server, no device and
+/// no environment variable; where there is none, through the X server that DISPLAY names. Hold a RenderLock while one
+/// exists, and use it on the thread that made it only.
 class OffscreenWindow {
  public:
-  /// Throws Error where there is no way to render (no EGL, no OpenGL 3.2).
+  /// Throws Error where there is neither.
   OffscreenWindow(int width, int height);
   ~OffscreenWindow();
   OffscreenWindow(const OffscreenWindow&) = delete;
