@@ -85,7 +85,8 @@ ContactSheet::Out ContactSheet::run(const In& in, const Params& params, Context&
   const int rows = (static_cast<int>(pictures.size()) + columns - 1) / columns;
   const int width = static_cast<int>(params.cell_width);
   const int height = std::max(1, width * pictures.front()->height / pictures.front()->width);
-  const int line = std::max(14, width / 26);
+  const int font = std::max(8, static_cast<int>(std::lround(params.caption_size * width)));
+  const int line = font * 3 / 2;
   Picture sheet;
   sheet.width = columns * width + (columns + 1) * gap;
   sheet.height = rows * (height + line + gap / 2) + (rows + 1) * gap;
@@ -100,7 +101,7 @@ ContactSheet::Out ContactSheet::run(const In& in, const Params& params, Context&
                  std::max(1, static_cast<int>(picture.height * scale))),
           left, top);
     write_text(sheet, i < params.captions.size() ? params.captions[i] : picture.caption, left, top + height + gap / 2,
-               line * 3 / 4);
+               font);
   }
   const auto path = context.output(params.path.path);
   write_png(sheet, path);

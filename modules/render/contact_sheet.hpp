@@ -25,6 +25,7 @@ struct ContactSheet {
     OutputPath path{"sheet.png"};
     std::int64_t columns = 2;
     std::int64_t cell_width = 640;
+    double caption_size = 0.05;
     std::vector<std::string> captions;
   };
 
@@ -35,6 +36,8 @@ struct ContactSheet {
                  param(&Params::columns, "columns", count, within(1, 20), "Pictures in a row."),
                  param(&Params::cell_width, "cell_width", count, within(64, 4096),
                        "Pixels across for each picture; its height follows from the first picture's shape."),
+                 param(&Params::caption_size, "caption_size", ratio, within(0.01, 0.2),
+                       "Size of the captions' letters as a share of a picture's width."),
                  param(&Params::captions, "captions",
                        "One text per picture, in their order; fewer are filled up with the pictures' own captions.")};
 

@@ -115,7 +115,7 @@ void Drawing::add_points(const Cloud& cloud, const std::vector<std::uint32_t>& c
 void Drawing::set_point_size(double pixels, double metres_per_pixel, int picture_height) {
   const double least = std::max(1.0, picture_height / 480.0);
   for (const auto& [actor, spacing] : impl_->clouds) {
-    const double automatic = std::clamp(1.2 * spacing / metres_per_pixel, least, 4 * least);
+    const double automatic = std::clamp(std::ceil(1.1 * spacing / metres_per_pixel), least, 4 * least);
     actor->GetProperty()->SetPointSize(static_cast<float>(std::round(pixels > 0 ? pixels : automatic)));
   }
 }

@@ -1,64 +1,14 @@
 #include "modules/render/snapshot.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <Eigen/Geometry>
-#include <filesystem>
 
 #include "modules/render/contact_sheet.hpp"
 #include "modules/render/png.hpp"
 #include "modules/types/palette.hpp"
+#include "tests/unit/render/pictures.hpp"
 
 namespace atrium::render {
 namespace {
-
-namespace fs = std::filesystem;
-
-class Folder : public ContextHost {
- public:
-  Folder() : path_(fs::temp_directory_path() / ("atrium-render-" + std::to_string(::getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~Folder() override { fs::remove_all(path_); }
-  fs::path output_folder() override { return path_; }
-  fs::path path_;
-};
-
-/// A room of 4 × 3 × 2.5 m, seen from inside, as planar meshes.
-PlaneMeshes room(const Eigen::Vector3d& origin) {
-  PlaneMeshes meshes;
-  meshes.origin = origin;
-  const auto add = [&](SurfaceClass surface, std::vector<Eigen::Vector3d> corners) {
-    PlaneMesh mesh;
-    mesh.primitive = static_cast<std::int32_t>(meshes.meshes.size());
-    mesh.surface = surface;
-    mesh.plane.normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-    mesh.plane.offset = -mesh.plane.normal.dot(corners[0]);
-    mesh.corners = std::move(corners);
-    meshes.meshes.push_back(mesh);
-  };
-  add(SurfaceClass::floor, {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}});
-  add(SurfaceClass::ceiling, {{0, 3, 2.5}, {4, 3, 2.5}, {4, 0, 2.5}, {0, 0, 2.5}});
-  add(SurfaceClass::wall, {{4, 0, 0}, {0, 0, 0}, {0, 0, 2.5}, {4, 0, 2.5}});
-  add(SurfaceClass::wall, {{0, 3, 0}, {4, 3, 0}, {4, 3, 2.5}, {0, 3, 2.5}});
-  add(SurfaceClass::wall, {{0, 0, 0}, {0, 3, 0}, {0, 3, 2.5}, {0, 0, 2.5}});
-  add(SurfaceClass::wall, {{4, 3, 0}, {4, 0, 0}, {4, 0, 2.5}, {4, 3, 2.5}});
-  return meshes;
-}
-
-Colour pixel(const Picture& picture, double x, double y) {
-  const auto column = static_cast<std::size_t>(x * picture.width);
-  const auto row = static_cast<std::size_t>(y * picture.height);
-  const auto* p = &picture.pixels[3 * (row * static_cast<std::size_t>(picture.width) + column)];
-  return {p[0], p[1], p[2]};
-}
-
-bool same_hue(const Colour& a, const Colour& b) {
-  const Eigen::Vector3d x(a[0], a[1], a[2]);
-  const Eigen::Vector3d y(b[0], b[1], b[2]);
-  return x.normalized().dot(y.normalized()) > 0.98 && x.norm() > 60;
-}
 
 TEST(Snapshot, LooksIntoARoomFromAbove) {
   auto host = std::make_shared<Folder>();

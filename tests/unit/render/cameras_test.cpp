@@ -1,0 +1,122 @@
+// Where cameras stand, how large points are, and lines between meshes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "modules/render/inside_view.hpp"
+#include "modules/render/point_spacing.hpp"
+#include "modules/render/snapshot.hpp"
+#include "tests/unit/render/pictures.hpp"
+
+namespace atrium::render {
+namespace {
+
+/// Points every 5 cm on a box's floor, ceiling and walls.
+void add_box(std::vector<Eigen::Vector3f>& points, float x, float y, float width, float depth, float height) {
+  for (float u = 0; u <= width; u += 0.05F)
+    for (float v = 0; v <= depth; v += 0.05F)
+      for (const float z : {0.0F, height}) points.emplace_back(x + u, y + v, z);
+  for (float z = 0; z <= height; z += 0.05F) {
+    for (float u = 0; u <= width; u += 0.05F)
+      for (const float v : {0.0F, depth}) points.emplace_back(x + u, y + v, z);
+    for (float v = 0; v <= depth; v += 0.05F)
+      for (const float u : {0.0F, width}) points.emplace_back(x + u, y + v, z);
+  }
+}
+
+TEST(InsideView, StandsInTheLargestRoomAtEyeHeightAndLooksAlongIt) {
+  std::vector<Eigen::Vector3f> points;
+  add_box(points, 0, 0, 3, 3, 2.6F);
+  add_box(points, 4, 0, 4, 8, 2.6F);
+  const Viewpoint view = inside_view(points);
+  EXPECT_NEAR(view.eye.z(), 1.6, 0.06);
+  EXPECT_GT(view.eye.x(), 4.3);
+  EXPECT_LT(view.eye.x(), 7.7);
+  EXPECT_GT(view.eye.y(), 0.3);
+  EXPECT_LT(view.eye.y(), 7.7);
+  const Eigen::Vector3d forward = (view.target - view.eye).normalized();
+  EXPECT_GT(std::abs(forward.y()), 0.7) << "along the longer side";
+  EXPECT_GT(forward.y() * (4 - view.eye.y()), 0) << "towards the farther end";
+}
+
+TEST(InsideView, StaysWithinLowAndTinyThings) {
+  std::vector<Eigen::Vector3f> low;
+  add_box(low, 0, 0, 3, 3, 1.0F);
+  EXPECT_LT(inside_view(low).eye.z(), 1.0);
+  for (const std::vector<Eigen::Vector3f>& few :
+       {std::vector<Eigen::Vector3f>{{1, 2, 3}}, std::vector<Eigen::Vector3f>{{1, 2, 3}, {1, 2, 3}, {4000, 2, 3}}}) {
+    const Viewpoint view = inside_view(few);
+    EXPECT_TRUE(view.eye.allFinite() && view.target.allFinite());
+    EXPECT_GT((view.target - view.eye).norm(), 0.1);
+  }
+}
+
+TEST(PointSpacing, IsThatOfTheSurfaceAndFindsLonePoints) {
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 200; ++i)
+    for (int k = 0; k < 200; ++k) points.emplace_back(0.02F * static_cast<float>(i), 0.02F * static_cast<float>(k), 0);
+  points.emplace_back(1, 1, 2);
+  const PointSpacing found = point_spacing(points);
+  EXPECT_GT(found.spacing, 0.014);
+  EXPECT_LT(found.spacing, 0.028);
+  EXPECT_EQ(found.lone.back(), 1);
+  EXPECT_EQ(std::count(found.lone.begin(), found.lone.end() - 1, 1), 0);
+  EXPECT_EQ(point_spacing({}).spacing, 0);
+  EXPECT_EQ(point_spacing({{1, 2, 3}}).spacing, 0);
+  EXPECT_EQ(point_spacing({{1, 2, 3}, {1, 2, 3}}).spacing, 0);
+}
+
+TEST(Snapshot, SparsePointsAreDrawnLarger) {
+  auto host = std::make_shared<Folder>();
+  Context context(1, host);
+  Snapshot::Params params;
+  params.width = params.height = 480;
+  params.views = {"top"};
+  params.cut_below_top = 0;
+  params.scale_bar = false;
+  params.colour_by = Snapshot::ColourBy::plain;
+  const auto covered = [&](int across) {
+    Cloud cloud;
+    for (int i = 0; i < across; ++i)
+      for (int k = 0; k < across; ++k)
+        cloud.points.emplace_back(4.0F * static_cast<float>(i) / static_cast<float>(across),
+                                  4.0F * static_cast<float>(k) / static_cast<float>(across), 0);
+    return share_of(Snapshot::run({.cloud = input(cloud)}, params, context).pictures.pictures[0], {110, 110, 110});
+  };
+  const double square = std::pow(1 / 1.12, 2);
+  EXPECT_NEAR(covered(400), square, 0.02);
+  EXPECT_NEAR(covered(150), square, 0.1) << "a third of the points still closes up";
+  EXPECT_LT(covered(20), 0.1) << "points do not grow without end";
+  params.point_size = 1;
+  EXPECT_LT(covered(150), 0.5 * square);
+}
+
+TEST(Snapshot, AdjacencyIsLinesBetweenTheMiddles) {
+  auto host = std::make_shared<Folder>();
+  Context context(1, host);
+  Snapshot::Params params;
+  params.width = params.height = 200;
+  params.views = {"top"};
+  params.legend = params.scale_bar = params.edges = false;
+  const auto meshes = input(room(Eigen::Vector3d::Zero()));
+  Adjacency adjacency;
+  adjacency.graph = Adjacency::Graph(6);
+  boost::add_edge(2, 3, {0.1}, adjacency.graph);
+  const auto line = [&](const Adjacency& graph) {
+    const auto out = Snapshot::run({.meshes = meshes, .adjacency = input(graph)}, params, context);
+    double most = 0;
+    for (int x = 90; x < 110; ++x) {
+      const Colour c = pixel(out.pictures.pictures[0], x / 200.0, 0.4);
+      most = std::max(most, 1.0 * c[0] - c[1]);
+    }
+    return most;
+  };
+  const Adjacency none{Adjacency::Graph(6)};
+  EXPECT_GT(line(adjacency), line(none) + 20);
+  EXPECT_THROW(Snapshot::run({.adjacency = input(adjacency)}, params, context), Error) << "without meshes";
+  const Adjacency of_others{Adjacency::Graph(7)};
+  EXPECT_THROW(Snapshot::run({.meshes = meshes, .adjacency = input(of_others)}, params, context), Error);
+}
+
+}  // namespace
+}  // namespace atrium::render

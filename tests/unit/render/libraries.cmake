@@ -1,0 +1,1 @@
+list(APPEND libraries atrium_synth atrium_geometry)
