@@ -116,8 +116,11 @@ void add_overlay(vtkRenderer* picture, vtkRenderer* front, const Overlay& overla
   const Pen pen{picture, front, overlay.dark_background ? 0.95 : 0.1};
   const double unit = height * overlay.text_size;
   const int font = static_cast<int>(unit);
-  if (!overlay.title.empty())
+  if (!overlay.title.empty()) {
+    const double words = 0.8 * static_cast<double>(overlay.title.size());
+    pen.plate(unit / 2, height - 2.8 * unit, std::min(words * unit + unit, width - unit), 2.3 * unit);
     pen.text(overlay.title, unit, height - unit, static_cast<int>(1.3 * unit), Pen::Align::left, true);
+  }
   std::size_t longest = 0;
   for (const auto& [name, colour] : overlay.legend) longest = std::max(longest, name.size());
   if (longest > 0)

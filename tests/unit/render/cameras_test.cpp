@@ -91,6 +91,61 @@ TEST(Snapshot, SparsePointsAreDrawnLarger) {
   EXPECT_LT(covered(150), 0.5 * square);
 }
 
+TEST(Snapshot, OnePointIsAPictureFromEverySide) {
+  auto host = std::make_shared<Folder>();
+  Context context(1, host);
+  Cloud cloud;
+  cloud.origin = {500000, 5400000, 100};
+  cloud.points = {{1, 2, 3}};
+  cloud.labels = {7};
+  Snapshot::Params params;
+  params.width = params.height = 64;
+  params.scale_bar = params.legend = false;
+  params.views = {"isometric", "top", "front", "back", "left", "right"};
+  params.cut_below_top = 0;
+  for (const auto by : {Snapshot::ColourBy::plain, Snapshot::ColourBy::height, Snapshot::ColourBy::label})
+    for (const auto& picture :
+         (params.colour_by = by, Snapshot::run({.cloud = input(cloud)}, params, context)).pictures.pictures)
+      EXPECT_LT(share_of(picture, {255, 255, 255}), 1) << picture.caption;
+  params.views = {"inside"};
+  EXPECT_EQ(Snapshot::run({.cloud = input(cloud)}, params, context).pictures.pictures.size(), 1U);
+  params.colour_by = Snapshot::ColourBy::distance;
+  const auto reference = input(square(cloud.origin));
+  EXPECT_EQ(Snapshot::run({.cloud = input(cloud), .reference = reference}, params, context).pictures.pictures.size(),
+            1U);
+}
+
+TEST(Snapshot, ACameraThatIsNoPlaceIsAnError) {
+  auto host = std::make_shared<Folder>();
+  Context context(1, host);
+  Snapshot::Params params;
+  params.target = {0, 0, 1};
+  for (const double x : {std::nan(""), HUGE_VAL, 0.0}) {
+    params.eye = {x, 0, x == 0 ? 1.0 : 0.0};
+    EXPECT_THROW(Snapshot::run({.meshes = input(room(Eigen::Vector3d::Zero()))}, params, context), Error) << x;
+  }
+  EXPECT_TRUE(fs::is_empty(host->path_)) << "no half-written file";
+}
+
+TEST(Snapshot, ManyPointsAreThinnedTheSameWayEveryTime) {
+  auto host = std::make_shared<Folder>();
+  Context context(1, host);
+  Cloud cloud;
+  Random random(3);
+  for (int i = 0; i < 2100000; ++i)
+    cloud.points.emplace_back(static_cast<float>(random.uniform()), static_cast<float>(random.uniform()), 0);
+  const Cloud before = cloud;
+  Snapshot::Params params;
+  params.width = params.height = 128;
+  params.views = {"top"};
+  params.cut_below_top = 0;
+  const auto given = input(std::move(cloud));
+  const auto first = Snapshot::run({.cloud = given}, params, context);
+  const auto second = Snapshot::run({.cloud = given}, params, context);
+  EXPECT_EQ(first.pictures.pictures[0].pixels, second.pictures.pictures[0].pixels);
+  EXPECT_EQ(given->points, before.points) << "for drawing only";
+}
+
 TEST(Snapshot, AdjacencyIsLinesBetweenTheMiddles) {
   auto host = std::make_shared<Folder>();
   Context context(1, host);
