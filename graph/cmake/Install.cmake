@@ -23,5 +23,6 @@ install(FILES ${PROJECT_BINARY_DIR}/atriumConfig.cmake ${PROJECT_BINARY_DIR}/atr
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/pipelines DESTINATION ${CMAKE_INSTALL_DATADIR}/atrium)
 # Not the scripts that set up, build and try a checkout.
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/ DESTINATION ${CMAKE_INSTALL_DATADIR}/atrium
-        REGEX "/share/[^/.]+$" EXCLUDE)
+foreach(folder colormaps doc schema)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/atrium)
+endforeach()

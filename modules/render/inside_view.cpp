@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <optional>
 
 namespace atrium::render {
 namespace {
@@ -24,25 +24,31 @@ std::vector<float> along(const std::vector<Eigen::Vector3f>& points, int axis) {
   return values;
 }
 
-/// The lowest height at which much lies: in a histogram of 5 cm, the first peak of a third of the highest one.
-double floor_height(const std::vector<Eigen::Vector3f>& points, double low, double high) {
+/// The lowest height at which much lies: in a histogram of 5 cm, the first peak of a third of the highest one. Nothing
+/// if that is in the upper half: the scan has no floor.
+std::optional<double> floor_height(const std::vector<Eigen::Vector3f>& points, double low, double high) {
   constexpr double step = 0.05;
   const auto bins = static_cast<std::size_t>(std::min((high - low) / step, 1e5)) + 3;
   std::vector<std::size_t> count(bins, 0);
   for (const auto& p : points)
     if (p.z() >= low && p.z() <= high) ++count[std::min(static_cast<std::size_t>((p.z() - low) / step) + 1, bins - 2)];
   const std::size_t most = *std::max_element(count.begin(), count.end());
-  for (std::size_t i = 1; i + 1 < bins; ++i)
-    if (3 * count[i] >= most && count[i] >= count[i + 1]) return low + (static_cast<double>(i) - 0.5) * step;
-  return low;
+  for (std::size_t i = 1; i + 1 < bins; ++i) {
+    if (3 * count[i] < most || count[i] < count[i + 1]) continue;
+    const double height = low + (static_cast<double>(i) - 0.5) * step;
+    return height <= (low + high) / 2 ? std::optional(height) : std::nullopt;
+  }
+  return std::nullopt;
 }
 
 /// A map of one storey from above.
 struct Plan {
   double left = 0, front = 0, cell = 0.1;
   int width = 1, depth = 1;
-  std::vector<char> floor, obstacle;
-  std::vector<int> clearance;  ///< cells to the nearest obstacle or border
+  std::vector<char> floor;
+  std::vector<char> obstacle;  ///< something at eye height
+  std::vector<int> clearance;  ///< cells to the nearest obstacle, or the border
+  std::vector<int> beside;     ///< the same to the nearest thing from the height of a table up
 
   std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
   bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < depth; }
@@ -60,12 +66,12 @@ std::vector<char> grown(const Plan& plan, const std::vector<char>& cells, int by
 }
 
 /// Steps to the nearest obstacle or border, in two sweeps (chessboard distance).
-std::vector<int> clearances(const Plan& plan) {
-  std::vector<int> steps(plan.obstacle.size(), 0);
+std::vector<int> clearances(const Plan& plan, const std::vector<char>& things) {
+  std::vector<int> steps(things.size(), 0);
   const auto neighbour = [&](int x, int y) { return plan.inside(x, y) ? steps[plan.at(x, y)] : 0; };
   for (int y = 0; y < plan.depth; ++y)
     for (int x = 0; x < plan.width; ++x)
-      if (plan.obstacle[plan.at(x, y)] == 0)
+      if (things[plan.at(x, y)] == 0)
         steps[plan.at(x, y)] =
             1 + std::min({neighbour(x - 1, y), neighbour(x - 1, y - 1), neighbour(x, y - 1), neighbour(x + 1, y - 1)});
   for (int y = plan.depth - 1; y >= 0; --y)
@@ -76,7 +82,7 @@ std::vector<int> clearances(const Plan& plan) {
   return steps;
 }
 
-Plan plan_of(const std::vector<Eigen::Vector3f>& points, double floor, double eye) {
+Plan plan_of(const std::vector<Eigen::Vector3f>& points, const std::optional<double>& floor, double eye) {
   Plan plan;
   const auto xs = along(points, 0);
   const auto ys = along(points, 1);
@@ -90,17 +96,23 @@ Plan plan_of(const std::vector<Eigen::Vector3f>& points, double floor, double ey
   const std::size_t cells = static_cast<std::size_t>(plan.width) * static_cast<std::size_t>(plan.depth);
   std::vector<char> seen_floor(cells, 0);
   std::vector<char> hits(cells, 0);
+  std::vector<char> things(cells, 0);
   for (const auto& p : points) {
     const int x = static_cast<int>(std::floor((p.x() - plan.left) / plan.cell));
     const int y = static_cast<int>(std::floor((p.y() - plan.front) / plan.cell));
     if (!plan.inside(x, y)) continue;
-    if (std::abs(p.z() - floor) < 0.15) seen_floor[plan.at(x, y)] = 1;
-    if (std::abs(p.z() - eye) < 0.4 && hits[plan.at(x, y)] < 2) ++hits[plan.at(x, y)];
+    const std::size_t cell = plan.at(x, y);
+    // Without a floor, what is under the ceiling is in the room.
+    if (floor ? std::abs(p.z() - *floor) < 0.15 : p.z() > eye + 0.4) seen_floor[cell] = 1;
+    if (std::abs(p.z() - eye) < 0.4 && hits[cell] < 2) ++hits[cell];
+    if (p.z() > eye - 0.95 && p.z() < eye + 0.4 && things[cell] < 2) ++things[cell];
   }
-  for (auto& hit : hits) hit = hit >= 2 ? 1 : 0;  // one alone may be noise
+  for (auto* some : {&hits, &things})
+    for (auto& hit : *some) hit = hit >= 2 ? 1 : 0;  // one alone may be noise
   plan.floor = grown(plan, seen_floor, 3);
   plan.obstacle = grown(plan, hits, 1);
-  plan.clearance = clearances(plan);
+  plan.clearance = clearances(plan, plan.obstacle);
+  plan.beside = clearances(plan, things);
   return plan;
 }
 
@@ -128,12 +140,13 @@ Choice best_place(const Plan& plan) {
   int most = 0;
   for (std::size_t i = 0; i < plan.floor.size(); ++i)
     if (plan.floor[i] != 0) most = std::max(most, plan.clearance[i]);
-  const int least = std::min(static_cast<int>(0.7 / plan.cell), 2 * most / 3);
+  const int least = std::max(1, std::min(static_cast<int>(0.7 / plan.cell), 2 * most / 3));
   const int stride = std::max(2, static_cast<int>(std::sqrt(plan.floor.size() / 4000.0)));
   Choice best;
   for (int y = 0; y < plan.depth; y += stride)
     for (int x = 0; x < plan.width; x += stride) {
-      if (plan.floor[plan.at(x, y)] == 0 || plan.clearance[plan.at(x, y)] < std::max(1, least)) continue;
+      const std::size_t cell = plan.at(x, y);
+      if (plan.floor[cell] == 0 || plan.clearance[cell] < least || 3 * plan.beside[cell] < 2 * least) continue;
       const auto sight = sight_from(plan, x, y);
       for (int d = 0; d < directions; ++d) {
         double score = 0;
@@ -153,9 +166,10 @@ Viewpoint inside_view(const std::vector<Eigen::Vector3f>& surface) {
   const auto heights = along(surface, 2);
   const double low = quantile(heights, 0.001);
   const double high = quantile(heights, 0.999);
-  const double floor = floor_height(surface, low, high);
+  const std::optional<double> found = floor_height(surface, low, high);
+  const double floor = found.value_or(low);
   const double eye = std::min(floor + 1.6, std::max(floor + 0.6 * (high - floor), floor + 0.1));
-  const Plan plan = plan_of(surface, floor, eye);
+  const Plan plan = plan_of(surface, found, eye);
   const Choice best = best_place(plan);
   if (best.score < 0) {
     const Eigen::Vector2d middle = plan.centre(plan.width / 2, plan.depth / 2);

@@ -26,11 +26,14 @@ endfunction()
 unset(ENV{ATRIUM_PLUGIN_PATH})
 call(0 "" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 call(0 "align.none" ${program} nodes align.none)
-foreach(file include/atrium/graph/api/node.hpp include/atrium/modules/types/cloud.hpp share/atrium/pipelines/paper.yaml)
+foreach(file include/atrium/graph/api/node.hpp include/atrium/modules/types/cloud.hpp share/atrium/pipelines/paper.yaml
+             share/atrium/colormaps/viridis.txt share/atrium/schema/pipeline.schema.json)
   if(NOT EXISTS ${prefix}/${file})
     message(FATAL_ERROR "${file} is not installed")
   endif()
 endforeach()
+
+call(0 "" ${program} run ${here}/picture.yaml --out ${WORK}/run-picture)
 
 file(COPY ${here}/example_plugin DESTINATION ${WORK})
 build(${WORK}/example_plugin)
