@@ -20,12 +20,12 @@ std::uint64_t spread(std::uint64_t x) {
 BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes, const Context& context) {
   Eigen::AlignedBox3d all;
   for (const auto& b : boxes) all.extend(b.center());
-  Eigen::Vector3d scale = Eigen::Vector3d::Zero();
-  if (!boxes.empty()) scale = all.sizes().cwiseMax(1e-300).cwiseInverse();
+  // One scale for all axes: the thickness of a flat surface is not to part its neighbours.
+  const double scale = boxes.empty() ? 0 : 1023.0 / std::max(all.sizes().maxCoeff(), 1e-300);
   std::vector<std::uint64_t> keys(boxes.size());
   context.parallel_for(boxes.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Vector3d place = (boxes[i].center() - all.min()).cwiseProduct(scale) * 1023.0;
+      const Eigen::Vector3d place = (boxes[i].center() - all.min()) * scale;
       std::uint64_t key = 0;
       for (int k = 0; k < 3; ++k) key |= spread(static_cast<std::uint64_t>(std::clamp(place[k], 0.0, 1023.0))) << k;
       keys[i] = key << 32 | i;
