@@ -23,9 +23,31 @@ void write_head(DL_Dxf& dxf, DL_WriterA& out) {
   out.sectionEnd();
 }
 
-void write_tables(DL_Dxf& dxf, DL_WriterA& out, const std::vector<DxfLayer>& layers) {
+// The view in which the file opens; dxflib's own shows the neighbourhood of zero.
+void write_view(DL_WriterA& out, const Eigen::Vector2d& centre, double height) {
+  out.table("VPORT", 1, 8);
+  out.dxfString(0, "VPORT");
+  out.handle();
+  out.dxfString(100, "AcDbSymbolTableRecord");
+  out.dxfString(100, "AcDbViewportTableRecord");
+  out.dxfString(2, "*Active");
+  out.dxfInt(70, 0);
+  // Corners on the screen, centre, snap and grid, direction, target.
+  const std::vector<std::pair<int, double>> numbers{
+      {10, 0},      {20, 0},   {11, 1},  {21, 1}, {12, centre.x()}, {22, centre.y()}, {13, 0}, {23, 0}, {14, 1},
+      {24, 1},      {15, 1},   {25, 1},  {16, 0}, {26, 0},          {36, 1},          {17, 0}, {27, 0}, {37, 0},
+      {40, height}, {41, 1.6}, {42, 50}, {43, 0}, {44, 0},          {50, 0},          {51, 0}};
+  for (const auto& [code, value] : numbers) out.dxfReal(code, value);
+  for (const auto& [code, value] :
+       std::vector<std::pair<int, int>>{{71, 0}, {72, 100}, {73, 1}, {74, 3}, {75, 0}, {76, 0}, {77, 0}, {78, 0}})
+    out.dxfInt(code, value);
+  out.tableEnd();
+}
+
+void write_tables(DL_Dxf& dxf, DL_WriterA& out, const std::vector<DxfLayer>& layers, const Eigen::Vector2d& centre,
+                  double height) {
   out.sectionTables();
-  dxf.writeVPort(out);
+  write_view(out, centre, height);
   out.tableLinetypes(3);
   for (const auto* name : {"BYBLOCK", "BYLAYER", "CONTINUOUS"})
     dxf.writeLinetype(out, DL_LinetypeData(name, name, 0, 0, 0.0));
@@ -86,14 +108,17 @@ struct DxfDrawing::Writer {
   std::filesystem::path path;
 };
 
-DxfDrawing::DxfDrawing(AtomicFile& file, const Eigen::Vector2d& origin, const std::vector<DxfLayer>& layers)
+DxfDrawing::DxfDrawing(AtomicFile& file, const Eigen::Vector2d& origin, const std::vector<DxfLayer>& layers,
+                       const Bounds2& view)
     : writer_(std::make_unique<Writer>()) {
   writer_->origin = origin;
   writer_->path = file.path();
   writer_->out.reset(writer_->dxf.out(file.path().c_str(), DL_VERSION_2000));
   if (!writer_->out) throw Error("cannot write " + file.path().string(), "is the folder there, and writable?");
   write_head(writer_->dxf, *writer_->out);
-  write_tables(writer_->dxf, *writer_->out, layers);
+  write_tables(writer_->dxf, *writer_->out, layers,
+               origin + (view.empty() ? Eigen::Vector2d::Zero().eval() : (0.5 * (view.low + view.high)).eval()),
+               std::max(1.5 * view.size().maxCoeff(), 1.0));
   write_blocks(writer_->dxf, *writer_->out);
   writer_->out->sectionEntities();
 }

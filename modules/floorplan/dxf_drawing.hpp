@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "graph/api/context.hpp"
-#include "modules/types/floor_plan.hpp"
+#include "modules/floorplan/plan_view.hpp"
 
 namespace atrium::floorplan {
 
@@ -18,10 +18,11 @@ struct DxfLayer {
 /// Text as DXF 2000 has it: ASCII, with \U+XXXX for other characters; control characters are left out.
 std::string dxf_text(std::string_view utf8);
 
-/// A DXF file of release 2000 that is being written by dxflib. Places are relative to `origin`.
+/// A DXF file of release 2000 that is being written by dxflib. Places are relative to `origin`; it opens with `view` in
+/// sight.
 class DxfDrawing {
  public:
-  DxfDrawing(AtomicFile& file, const Eigen::Vector2d& origin, const std::vector<DxfLayer>& layers);
+  DxfDrawing(AtomicFile& file, const Eigen::Vector2d& origin, const std::vector<DxfLayer>& layers, const Bounds2& view);
   ~DxfDrawing();
   DxfDrawing(const DxfDrawing&) = delete;
   DxfDrawing& operator=(const DxfDrawing&) = delete;

@@ -108,10 +108,16 @@ WriteDxf::Out WriteDxf::run(const In& in, const Params& params, Context& context
     context.warn("the plan is empty: " + params.path.path + " has no entities");
     all = layers;
   }
+  Bounds2 view;
+  for (const auto& storey : storeys)
+    if (const Bounds2 box = bounds(storey); !box.empty()) {
+      view.add(box.low);
+      view.add(box.high);
+    }
   const double turn = wall_turn(plan), mm = params.scale / 1000.0;
   const auto path = context.output(params.path.path);
   AtomicFile file(path);
-  DxfDrawing drawing(file, plan.origin.head<2>(), all);
+  DxfDrawing drawing(file, plan.origin.head<2>(), all, view);
   for (const auto& storey : storeys) {
     StoreyDrawing entities(drawing, suffix_of(storey), mm);
     entities.areas(storey);

@@ -35,7 +35,7 @@ for e in doc.modelspace():
         entry["points"] = [list(e.dxf.align_point)]
     entities.append(entry)
 print(json.dumps({"errors": [e.message for e in audit.errors], "units": doc.header["$INSUNITS"],
-                  "version": doc.dxfversion, "layers": [l.dxf.name for l in doc.layers], "entities": entities}))
+                  "version": doc.dxfversion, "view": list(doc.viewports.get("*Active")[0].dxf.center), "layers": [l.dxf.name for l in doc.layers], "entities": entities}))
 )";
 
 // A Python that has ezdxf: Debian's own may not be the first on the path.
@@ -86,6 +86,8 @@ TEST_F(Dxf, IsReadBackWithoutErrorsInTrueSizeAndPlace) {
   const json root = read_back(plan_of(mesh));
   EXPECT_EQ(root["version"], "AC1015");
   EXPECT_EQ(root["units"], 6);
+  EXPECT_NEAR(root["view"][0], 500003.623, 0.001);
+  EXPECT_NEAR(root["view"][1], 5400001.956, 0.001);
   const auto walls = on(root, "A-WALL", "LWPOLYLINE");
   ASSERT_EQ(walls.size(), 1U);
   EXPECT_TRUE(walls[0]["closed"].get<bool>());
