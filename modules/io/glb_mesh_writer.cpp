@@ -97,6 +97,7 @@ class GlbModel {
   }
   int add_places(const std::vector<std::uint32_t>& vertices, std::size_t image) {
     std::vector<Eigen::Vector2f> places;
+    places.reserve(vertices.size());
     for (const auto v : vertices) places.emplace_back(images_.place(image, mesh_.vertices[v]).cast<float>());
     return buffer_.places(model_, places);
   }
