@@ -40,6 +40,13 @@ class HelpTimer {
 
 }  // namespace
 
+std::uint64_t Context::seed() const {
+  if (!random_)
+    throw Error("the node type draws randomness but does not say so",
+                "add `static constexpr bool random = true;` to its struct");
+  return seed_;
+}
+
 void Context::parallel_chunks(std::size_t total, std::size_t size,
                               const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const {
   if (total == 0) return;

@@ -30,11 +30,14 @@ class ContextHost {
 class Context {
  public:
   Context() = default;
-  Context(std::uint64_t seed, std::shared_ptr<ContextHost> host) : seed_(seed), host_(std::move(host)) {}
+  /// `random`: whether the node type says that it draws randomness.
+  Context(std::uint64_t seed, std::shared_ptr<ContextHost> host, bool random = true)
+      : seed_(seed), random_(random), host_(std::move(host)) {}
 
-  /// The node's seed (run seed and node path). Make one stream per purpose or chunk: random(7) is always the same.
-  std::uint64_t seed() const { return seed_; }
-  Random random(std::uint64_t stream = 0) const { return Random(mix_seed(seed_, stream)); }
+  /// The node's seed (run seed and node path). Make one stream per purpose or chunk: random(7) is always the same. Only
+  /// for types with `static constexpr bool random = true`: the results of others are kept when the seed changes.
+  std::uint64_t seed() const;
+  Random random(std::uint64_t stream = 0) const { return Random(mix_seed(seed(), stream)); }
 
   /// Calls work(chunk, begin, end) for the pieces [0, size), [size, 2·size), … of [0, total), side by side on the run's
   /// threads. The pieces do not depend on the number of threads: a result gathered per chunk and joined in the order of
@@ -61,6 +64,7 @@ class Context {
 
  private:
   std::uint64_t seed_ = 1;
+  bool random_ = true;
   std::shared_ptr<ContextHost> host_ = std::make_shared<ContextHost>();
 };
 

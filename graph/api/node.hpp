@@ -30,7 +30,8 @@ namespace atrium {
 ///   };
 ///
 /// A field that no table lists does not compile. Optional: `static constexpr int version` (raise it when the results
-/// change), `static constexpr bool sink = true` (runs although nothing reads its outputs; nodes without outputs and
+/// change), `static constexpr bool random = true` (it draws randomness from its Context: another seed, another result),
+/// `static constexpr bool sink = true` (runs although nothing reads its outputs; nodes without outputs and
 /// nodes with an OutputPath are sinks anyway).
 
 /// A required input: never null in run().
@@ -76,7 +77,7 @@ struct PortInfo {
 struct NodeType {
   std::string type, summary;
   int version = 1;
-  bool sink = false;
+  bool sink = false, random = false;
   std::vector<PortInfo> inputs, outputs;
   std::vector<ParamInfo> params;
   /// inputs[i] belongs to port i and holds 0, 1 or many values; params[i] to parameter i. Returns one value per output.
@@ -189,6 +190,7 @@ NodeType describe_tables() {
   std::apply([&](const auto&... row) { (add_output(row), ...); }, N::outputs);
   const typename N::Params defaults{};
   std::apply([&](const auto&... row) { (node.params.push_back(detail::erase(row, defaults)), ...); }, N::params);
+  if constexpr (requires { N::random; }) node.random = N::random;
   node.sink = node.outputs.empty();
   if constexpr (requires { N::sink; }) node.sink = node.sink || N::sink;
   for (const auto& p : node.params) node.sink = node.sink || p.kind == ParamKind::output_path;

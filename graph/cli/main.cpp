@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   cli::add_check(app, exit_code);
   cli::add_nodes(app, exit_code);
   cli::add_run(app, exit_code);
+  cli::add_sweep(app, exit_code);
   cli::add_graph(app, exit_code);
   cli::add_schema(app, exit_code);
   try {

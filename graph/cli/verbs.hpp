@@ -15,6 +15,7 @@ enum Exit : int { ok = 0, failed = 1, usage = 2, invalid = 3, some_failed = 4, p
 void add_check(CLI::App& app, int& exit_code);
 void add_nodes(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
+void add_sweep(CLI::App& app, int& exit_code);
 void add_graph(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);
 

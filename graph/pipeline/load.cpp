@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <algorithm>
 
@@ -55,6 +56,7 @@ void build_pipeline(Expansion& expansion, const std::vector<std::size_t>& order,
     place[index] = pipeline.nodes.size();
     FlatNode& flat = expansion.nodes[index];
     PipelineNode node{std::move(flat.path), flat.type, std::move(flat.params), {}};
+    node.seed = node_seed(pipeline.seed, node.path);
     for (const auto& port : flat.inputs) {
       auto& edges = node.inputs.emplace_back();
       for (const auto& edge : port) edges.push_back({place[edge.from.node], edge.from.output});
@@ -93,6 +95,10 @@ void check_complete(const Document& root, const Expansion& expansion, LoadOption
 }
 
 }  // namespace
+
+std::uint64_t node_seed(std::uint64_t run_seed, std::string_view path) {
+  return mix_seed(run_seed, XXH3_64bits(path.data(), path.size()));
+}
 
 std::string_view framework_version() { return ATRIUM_VERSION; }
 

@@ -20,6 +20,8 @@ struct PipelineNode {
   const NodeType* type = nullptr;         ///< owned by the Registry
   std::vector<ParamValue> params;         ///< one per parameter of the type, defaults filled in, paths absolute
   std::vector<std::vector<Edge>> inputs;  ///< one list per input port: 0, 1 or many edges
+  std::uint64_t seed = 0;                 ///< of its random streams: from the run's seed and the node's path
+  std::filesystem::path folder;           ///< where it writes, relative to the run's folder
 };
 
 struct PipelineOutput {
@@ -74,6 +76,9 @@ class Registry;
 /// before anything runs.
 LoadResult load_pipeline(const std::filesystem::path& file, const std::vector<Override>& overrides, Registry& registry,
                          LoadOptions options = {});
+
+/// The seed of a node's random streams.
+std::uint64_t node_seed(std::uint64_t run_seed, std::string_view path);
 
 /// Atrium's own version, "0.1.0".
 std::string_view framework_version();

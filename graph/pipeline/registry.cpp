@@ -2,9 +2,12 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <mutex>
 #include <set>
 
@@ -169,6 +172,26 @@ std::vector<const NodeType*> Registry::all(std::vector<std::string>* problems) {
 void Registry::add(NodeType type) {
   std::string name = type.type;
   impl_->types.insert_or_assign(std::move(name), std::move(type));
+}
+
+std::string Registry::build() const {
+  std::set<std::filesystem::path> files;
+  std::vector<std::filesystem::path> folders = impl_->folders;
+  if (!folders.empty()) folders.push_back(own_plugin_folder().parent_path());
+  for (const auto& folder : folders) {
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+      if (const std::string name = entry.path().filename().string();
+          name.starts_with("libatrium") && name.find(suffix) != std::string::npos)
+        files.insert(std::filesystem::canonical(entry.path(), ignored));
+  }
+  std::string hashes = ATRIUM_STAMP;
+  for (const auto& file : files) {
+    std::ifstream stream(file, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+    hashes += fmt::format(";{}:{:016x}", file.filename().string(), XXH3_64bits(bytes.data(), bytes.size()));
+  }
+  return fmt::format("{:016x}", XXH3_64bits(hashes.data(), hashes.size()));
 }
 
 std::vector<std::string> Registry::modules() const {

@@ -31,4 +31,9 @@ std::uint64_t peak_memory() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+void reset_peak_memory() {
+  std::ofstream file("/proc/self/clear_refs");
+  file << 5;
+}
+
 }  // namespace atrium

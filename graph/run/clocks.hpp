@@ -8,4 +8,7 @@ double thread_cpu_seconds();   ///< of the calling thread
 double process_cpu_seconds();  ///< of all threads of the process
 std::uint64_t peak_memory();   ///< highest resident memory of the process so far, bytes
 
+/// Lets peak_memory() begin anew from what is resident now.
+void reset_peak_memory();
+
 }  // namespace atrium

@@ -13,14 +13,17 @@ namespace atrium {
 /// What a node's Context is connected to during a run.
 class NodeHost final : public ContextHost {
  public:
-  NodeHost(const std::string& node, const std::filesystem::path& folder, const std::atomic<bool>* cancel,
-           const PngStamp& stamp, ProgressSink& progress)
-      : node_(node), folder_(folder), cancel_(cancel), stamp_(stamp), progress_(progress) {}
+  /// `folder` is the run's, `subfolder` the node's in it.
+  NodeHost(const std::string& node, const std::filesystem::path& folder, const std::filesystem::path& subfolder,
+           const std::atomic<bool>* cancel, const PngStamp& stamp, ProgressSink& progress)
+      : node_(node), folder_(folder), subfolder_(subfolder), cancel_(cancel), stamp_(stamp), progress_(progress) {}
 
   void log(Level level, std::string_view text) override;
   void progress(double share) override { progress_.progress(node_, share); }
   bool cancelled() override { return cancel_ != nullptr && cancel_->load(std::memory_order_relaxed); }
-  std::filesystem::path output_folder() override { return folder_.empty() ? "." : folder_; }
+  std::filesystem::path output_folder() override {
+    return folder_.empty() && subfolder_.empty() ? "." : folder_ / subfolder_;
+  }
   void wrote(const std::filesystem::path& file) override;
   void helped(double cpu_seconds) override;
 
@@ -30,6 +33,7 @@ class NodeHost final : public ContextHost {
  private:
   const std::string& node_;
   const std::filesystem::path& folder_;
+  const std::filesystem::path& subfolder_;
   const std::atomic<bool>* cancel_;
   const PngStamp& stamp_;  ///< goes into every picture that the node writes
   ProgressSink& progress_;

@@ -1,6 +1,6 @@
 #include "graph/run/runner.hpp"
 
-#include <xxhash.h>
+#include <algorithm>
 
 #include "graph/run/clocks.hpp"
 #include "graph/run/run_folder.hpp"
@@ -17,10 +17,6 @@ std::string_view name_of(NodeStatus status) {
   }
 }
 
-std::uint64_t node_seed(std::uint64_t run_seed, std::string_view path) {
-  return mix_seed(run_seed, XXH3_64bits(path.data(), path.size()));
-}
-
 RunResult run_pipeline(const Pipeline& pipeline, const RunOptions& options, ProgressSink& progress) {
   RunOptions absolute = options;
   if (!options.out.empty()) absolute.out = std::filesystem::absolute(options.out).lexically_normal();
@@ -33,6 +29,7 @@ RunResult run_pipeline(const Pipeline& pipeline, const RunOptions& options, Prog
   result.wall = wall_seconds() - wall;
   result.cpu = process_cpu_seconds() - cpu;
   result.peak_memory = peak_memory();
+  for (const auto& node : result.nodes) result.peak_memory = std::max(result.peak_memory, node.peak_memory);
   folder.finish(result);
   return result;
 }

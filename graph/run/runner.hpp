@@ -2,12 +2,14 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "graph/pipeline/pipeline.hpp"
+#include "graph/pipeline/png_stamp.hpp"
 
 namespace atrium {
 
@@ -16,6 +18,9 @@ struct RunOptions {
   int threads = 0;            ///< 0: one per core; 1: strictly one after the other
   bool hashes = true;         ///< content hashes of outputs in the manifest
   const std::atomic<bool>* cancel = nullptr;  ///< set it to end the run: no node is started after that
+  /// What goes into the pictures of a node; empty: stamp_of() the pipeline.
+  std::function<const PngStamp&(const PipelineNode& node)> stamp;
+  const std::atomic<bool>* stop = nullptr;  ///< the same, but the nodes that run are let finish
 };
 
 enum class NodeStatus {
@@ -50,10 +55,12 @@ struct NodeRecord {
   /// library does on threads of its own, or a node in bare oneTBB loops on other threads, is in the run's total only.
   double cpu = 0;
   double hash_start = 0,
-         hash_wall = 0;           ///< sizing and hashing the outputs: after the nodes that read them were started
-  std::uint64_t peak_memory = 0;  ///< highest resident memory of the process up to the node's end, bytes
-  int thread = 0;                 ///< which of the run's threads, from 0
+         hash_wall = 0;  ///< sizing and hashing the outputs: after the nodes that read them were started
+  /// Highest resident memory of the process up to the node's end, bytes; with one thread: while the node ran.
+  std::uint64_t peak_memory = 0;
+  int thread = 0;  ///< which of the run's threads, from 0
   std::vector<OutputRecord> outputs;
+  std::vector<std::vector<Fact>> facts;  ///< per output: what is printed of it
   std::vector<std::string> warnings;
   std::vector<Artefact> artefacts;
 };
@@ -96,8 +103,5 @@ class ProgressSink {
 /// is cancelled). Results do not depend on the number of threads. Throws FolderError, and Error if the
 /// pipeline is not one (nodes in a circle).
 RunResult run_pipeline(const Pipeline& pipeline, const RunOptions& options, ProgressSink& progress);
-
-/// The seed of a node's random streams.
-std::uint64_t node_seed(std::uint64_t run_seed, std::string_view path);
 
 }  // namespace atrium

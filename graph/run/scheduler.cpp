@@ -72,7 +72,8 @@ RunResult Scheduler::run() {
   return std::move(result_);
 }
 
-bool Scheduler::stopping() const { return options_.cancel != nullptr && options_.cancel->load(); }
+bool Scheduler::cancelled() const { return options_.cancel != nullptr && options_.cancel->load(); }
+bool Scheduler::stopping() const { return cancelled() || (options_.stop != nullptr && options_.stop->load()); }
 
 void Scheduler::step() {
   std::size_t n = 0;
@@ -98,14 +99,17 @@ void Scheduler::execute(std::size_t n) {
     inputs = inputs_of(n);
   }
   std::vector<Value> outputs;
+  if (result_.threads == 1) reset_peak_memory();
   const bool ok = call(n, inputs, outputs);
   inputs.clear();  // the last reference goes in settle
-  if (record.wall >= peak_reading_interval) peak_memory_ = peak_memory();
+  if (record.wall >= peak_reading_interval || result_.threads == 1) peak_memory_ = peak_memory();
   record.peak_memory = peak_memory_;
   if (ok)
     record.status = NodeStatus::ok;
   else
     outputs.clear();
+  for (const auto& value : outputs)
+    record.facts.push_back(value.facts == nullptr ? std::vector<Fact>{} : value.facts(value.data.get()));
   progress_.finished(record);
   settle(n, outputs);
   if (ok) describe(n, outputs);
@@ -114,8 +118,10 @@ void Scheduler::execute(std::size_t n) {
 bool Scheduler::call(std::size_t n, const Inputs& inputs, std::vector<Value>& outputs) {
   const PipelineNode& node = pipeline_.nodes[n];
   NodeRecord& record = result_.nodes[n];
-  const auto host = std::make_shared<NodeHost>(record.node, options_.out, options_.cancel, picture_stamp_, progress_);
-  Context context(node_seed(pipeline_.seed, node.path), host);
+  const PngStamp& stamp = options_.stamp ? options_.stamp(node) : picture_stamp_;
+  const auto host =
+      std::make_shared<NodeHost>(record.node, options_.out, node.folder, options_.cancel, stamp, progress_);
+  Context context(node.seed, host, node.type->random);
   record.thread = tbb::this_task_arena::current_thread_index();
   record.start = wall_seconds() - start_;
   const double cpu = thread_cpu_seconds();
@@ -125,7 +131,7 @@ bool Scheduler::call(std::size_t n, const Inputs& inputs, std::vector<Value>& ou
     tbb::this_task_arena::isolate([&] { outputs = node.type->run(inputs, node.params, context); });
     ok = true;
   } catch (const Cancelled&) {
-    if (!stopping()) fail(n, "ended as if cancelled, but nobody cancelled the run", "");
+    if (!cancelled()) fail(n, "ended as if cancelled, but nobody cancelled the run", "");
   } catch (const Error& error) {
     fail(n, error.what(), error.help());
   } catch (const std::bad_alloc&) {

@@ -37,6 +37,7 @@ class Scheduler {
   void fail(std::size_t n, std::string message, std::string help);
   void describe(std::size_t n, const std::vector<Value>& outputs);
   void settle(std::size_t n, const std::vector<Value>& outputs);
+  bool cancelled() const;
   bool stopping() const;
   // With mutex_ held:
   Inputs inputs_of(std::size_t n) const;

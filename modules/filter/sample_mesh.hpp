@@ -13,6 +13,7 @@ namespace atrium::filter {
 struct SampleMesh {
   static constexpr std::string_view type = "filter.sample_mesh";
   static constexpr std::string_view summary = "Samples points on the surface of a mesh by Poisson disks.";
+  static constexpr bool random = true;
   struct In {
     Input<Mesh> mesh;
   };

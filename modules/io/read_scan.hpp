@@ -21,6 +21,7 @@ namespace atrium::io {
 struct ReadScan {
   static constexpr std::string_view type = "io.read_scan";
   static constexpr std::string_view summary = "Reads a point cloud or mesh file as a cloud.";
+  static constexpr bool random = true;  // only where the file is a mesh, which is sampled
   enum class MeshUse { sample, vertices };
   enum class SensorUse { automatic, origin, none };
   struct In {};

@@ -23,6 +23,7 @@ namespace atrium::plane {
 struct Ransac {
   static constexpr std::string_view type = "plane.ransac";
   static constexpr std::string_view summary = "Finds planes by efficient RANSAC with localized sampling.";
+  static constexpr bool random = true;
   struct In {
     Input<Cloud> cloud;
   };

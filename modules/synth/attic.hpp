@@ -11,6 +11,7 @@ namespace atrium::synth {
 struct Attic {
   static constexpr std::string_view type = "synth.attic";
   static constexpr std::string_view summary = "A furnished attic with slanted ceilings, with exact ground truth.";
+  static constexpr bool random = true;
   struct In {};
   struct Out {
     SimulatedScene scene;

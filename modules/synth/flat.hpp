@@ -11,6 +11,7 @@ namespace atrium::synth {
 struct Flat {
   static constexpr std::string_view type = "synth.flat";
   static constexpr std::string_view summary = "A furnished flat of four rooms with exact ground truth.";
+  static constexpr bool random = true;
   struct In {};
   struct Out {
     SimulatedScene scene;

@@ -9,6 +9,7 @@ namespace atrium::synth {
 struct Room {
   static constexpr std::string_view type = "synth.room";
   static constexpr std::string_view summary = "A furnished L-shaped room with exact ground truth.";
+  static constexpr bool random = true;
   struct In {};
   struct Out {
     SimulatedScene scene;

@@ -24,6 +24,7 @@ namespace atrium::synth {
 struct Scan {
   static constexpr std::string_view type = "synth.scan";
   static constexpr std::string_view summary = "Scans a simulated scene: rays, occlusion, noise, outliers, drift.";
+  static constexpr bool random = true;
   enum class Pattern { spherical, uniform_area };
   struct In {
     Input<SimulatedScene> scene;

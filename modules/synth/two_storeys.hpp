@@ -11,6 +11,7 @@ struct TwoStoreys {
   static constexpr std::string_view type = "synth.two_storeys";
   static constexpr std::string_view summary =
       "A furnished house of two storeys with a staircase, with exact ground truth.";
+  static constexpr bool random = true;
   struct In {};
   struct Out {
     SimulatedScene scene;

@@ -14,6 +14,7 @@ class PipelineBuilder {
   template <class N>
   std::size_t add(std::string path, std::vector<std::vector<Edge>> inputs = {}) {
     PipelineNode node{std::move(path), type_of<N>(), {}, std::move(inputs)};
+    node.seed = node_seed(pipeline_.seed, node.path);
     node.inputs.resize(node.type->inputs.size());
     for (const auto& param : node.type->params) node.params.push_back(param.initial);
     pipeline_.nodes.push_back(std::move(node));

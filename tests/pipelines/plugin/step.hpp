@@ -7,6 +7,7 @@ namespace atrium::trial {
 struct Step {
   static constexpr std::string_view type = "trial.step";
   static constexpr std::string_view summary = "Passes, fails, or waits for the run to be cancelled.";
+  static constexpr bool random = true;
   enum class Mode { pass, fail, wait, ignore };
   struct In {
     OptionalInput<double> after;

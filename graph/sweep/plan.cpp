@@ -1,0 +1,245 @@
+#include "graph/sweep/plan.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <set>
+#include <unordered_map>
+
+#include "graph/api/suggest.hpp"
+
+namespace atrium {
+namespace {
+
+constexpr std::size_t most_variants = 100'000;
+constexpr std::size_t most_errors = 100;
+
+std::string hash_of(const std::string& text) {
+  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+/// Whether the chosen values fulfil all conditions of one `exclude`.
+bool matches(const std::vector<SweepSetting>& conditions, const SweepFile& sweep,
+             const std::vector<std::size_t>& choices) {
+  return std::all_of(conditions.begin(), conditions.end(), [&](const SweepSetting& condition) {
+    for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
+      const SweepChoice& choice = sweep.axes[a].choices[choices[a]];
+      if (sweep.axes[a].name == condition.target && choice.label == condition.value) return true;
+      for (const auto& setting : choice.settings)
+        if (setting.target == condition.target && setting.value == condition.value) return true;
+    }
+    return false;
+  });
+}
+
+class Planner {
+ public:
+  Planner(const SweepFile& sweep, const std::vector<Override>& given, Registry& registry)
+      : sweep_(sweep), given_(given), registry_(registry) {}
+
+  SweepLoad plan() {
+    check_exclude();
+    if (const std::size_t combinations = count(); combinations > most_variants)
+      findings_.error({&sweep_.source, {}},
+                      fmt::format("the sweep has {} combinations, more than {}", combinations, most_variants));
+    std::vector<std::size_t> choices(sweep_.axes.size(), 0);
+    bool more = findings_.error_count() == 0;
+    while (more && findings_.error_count() + errors_.size() < most_errors) {
+      add(choices);
+      more = next(choices);
+    }
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  std::size_t count() const {
+    std::size_t total = 1;
+    for (const auto& axis : sweep_.axes) total = std::min(total * axis.choices.size(), most_variants * 1000);
+    return total;
+  }
+
+  /// The last axis runs fastest.
+  bool next(std::vector<std::size_t>& choices) const {
+    for (std::size_t a = choices.size(); a-- > 0;) {
+      if (++choices[a] < sweep_.axes[a].choices.size()) return true;
+      choices[a] = 0;
+    }
+    return false;
+  }
+
+  void check_exclude() {
+    excludes_.assign(sweep_.exclude.size(), 0);
+    std::vector<std::string> names;
+    for (const auto& axis : sweep_.axes) {
+      names.push_back(axis.name);
+      for (const auto& choice : axis.choices)
+        for (const auto& setting : choice.settings) names.push_back(setting.target);
+    }
+    for (const auto& conditions : sweep_.exclude)
+      for (const auto& condition : conditions)
+        if (std::find(names.begin(), names.end(), condition.target) == names.end())
+          findings_.error({&sweep_.source, condition.place},
+                          fmt::format("'exclude' names '{}', which the sweep does not vary", condition.target),
+                          findings_.suggest(condition.target, names));
+  }
+
+  std::vector<Override> overrides(const std::vector<std::size_t>& choices) const {
+    std::vector<Override> result = given_;
+    const auto add = [&](const SweepSetting& setting) {
+      const auto same = [&](const Override& o) { return o.text.starts_with(setting.target + "="); };
+      if (std::any_of(given_.begin(), given_.end(), same)) return;  // the command line wins
+      result.push_back({setting.target + "=" + setting.value, to_string(Where{&sweep_.source, setting.place}),
+                        sweep_.source.folder});
+    };
+    for (const auto& setting : sweep_.settings) add(setting);
+    for (std::size_t a = 0; a < choices.size(); ++a)
+      for (const auto& setting : sweep_.axes[a].choices[choices[a]].settings) add(setting);
+    return result;
+  }
+
+  void add(const std::vector<std::size_t>& choices) {
+    for (std::size_t e = 0; e < sweep_.exclude.size(); ++e) {
+      if (!matches(sweep_.exclude[e], sweep_, choices)) continue;
+      ++excludes_[e];
+      ++result_.plan.excluded;
+      return;
+    }
+    LoadResult loaded = load_pipeline(sweep_.base, overrides(choices), registry_);
+    keep(loaded.errors, errors_, result_.errors);
+    keep(loaded.warnings, warnings_, result_.warnings);
+    if (!loaded.errors.empty()) return;
+    check_metrics(loaded.pipeline);
+    result_.plan.merged.summary = loaded.pipeline.summary;
+    merge(loaded.pipeline, choices);
+  }
+
+  static void keep(std::vector<Diagnostic>& found, std::set<std::string>& known, std::vector<Diagnostic>& list) {
+    for (auto& finding : found)
+      if (known.insert(to_string(finding)).second) list.push_back(std::move(finding));
+  }
+
+  /// The outputs and nodes that the table and the pictures are made from.
+  void check_metrics(const Pipeline& pipeline) {
+    const auto outputs = words_of(pipeline.outputs, [](const PipelineOutput& output) { return output.name; });
+    for (const auto& metric : sweep_.metrics) {
+      const Where where{&sweep_.source, metric.place};
+      if (metric.kind == SweepMetric::Kind::fact) {
+        if (std::find(outputs.begin(), outputs.end(), metric.output) != outputs.end()) continue;
+        const std::string hint = findings_.suggest(metric.output, outputs);
+        findings_.error(where, fmt::format("{} has no output '{}'", sweep_.base_name, metric.output),
+                        hint.empty() ? "its outputs: " + join_words(outputs, 40) : hint);
+      } else if (!metric.node.empty() &&
+                 std::none_of(pipeline.nodes.begin(), pipeline.nodes.end(), [&](const PipelineNode& node) {
+                   return node.path == metric.node || node.path.starts_with(metric.node + "/");
+                 })) {
+        findings_.error(where, fmt::format("a variant has no node '{}'", metric.node));
+      }
+    }
+  }
+
+  void merge(const Pipeline& pipeline, const std::vector<std::size_t>& choices) {
+    SweepPlan& plan = result_.plan;
+    SweepVariant variant{hash_of(resolved_yaml(pipeline)).substr(0, 12), choices, pipeline.seed};
+    if (const auto [known, fresh] = ids_.try_emplace(variant.id, plan.variants.size()); !fresh) {
+      ++plan.duplicates;
+      plan.notes.push_back(fmt::format("{} is the same as {}", label_of(sweep_, variant),
+                                       label_of(sweep_, plan.variants[known->second])));
+      return;
+    }
+    plan.nodes += pipeline.nodes.size();
+    for (const PipelineNode& node : pipeline.nodes) variant.nodes.push_back(place(node, variant));
+    for (const auto& output : pipeline.outputs)
+      variant.outputs.push_back({output.name, {variant.nodes[output.from.node], output.from.output}});
+    plan.variants.push_back(std::move(variant));
+  }
+
+  std::size_t place(const PipelineNode& node, const SweepVariant& variant) {
+    PipelineNode merged = node;
+    std::string text = fmt::format("{}\n{}\n{}\n", node.path, node.type->type, node.type->version);
+    if (node.type->random) text += fmt::format("seed {}\n", node.seed);
+    for (std::size_t i = 0; i < node.params.size(); ++i)
+      text += format_param(node.type->params[i], node.params[i]) + "\n";
+    for (auto& port : merged.inputs) {
+      text += "in\n";
+      for (auto& edge : port) {
+        edge.node = variant.nodes[edge.node];
+        text += fmt::format("{}.{}\n", keys_[edge.node], edge.output);
+      }
+    }
+    std::string key = hash_of(text);
+    const auto [known, fresh] = nodes_.try_emplace(key, result_.plan.merged.nodes.size());
+    if (!fresh) return known->second;
+    merged.path = variant.id + "/" + node.path;
+    merged.folder = std::filesystem::path("variants") / variant.id;
+    result_.plan.merged.nodes.push_back(std::move(merged));
+    keys_.push_back(std::move(key));
+    return keys_.size() - 1;
+  }
+
+  void finish() {
+    SweepPlan& plan = result_.plan;
+    plan.merged.file = sweep_.path;
+    for (std::size_t e = 0; e < excludes_.size(); ++e)
+      if (excludes_[e] == 0 && result_.errors.empty() && findings_.error_count() == 0)
+        findings_.error({&sweep_.source, sweep_.exclude[e].empty() ? Place{} : sweep_.exclude[e].front().place},
+                        "this exclusion excludes nothing",
+                        "its values are written as in the lists that they are taken from");
+    if (plan.variants.empty() && result_.errors.empty() && findings_.error_count() == 0)
+      findings_.error({&sweep_.source, {}}, "no variant is left");
+    auto own = findings_.errors();
+    result_.errors.insert(result_.errors.begin(), own.begin(), own.end());
+  }
+
+  const SweepFile& sweep_;
+  const std::vector<Override>& given_;
+  Registry& registry_;
+  Findings findings_;
+  SweepLoad result_;
+  std::set<std::string> errors_, warnings_;
+  std::vector<std::size_t> excludes_;
+  std::unordered_map<std::string, std::size_t> ids_, nodes_;
+  std::vector<std::string> keys_;
+};
+
+}  // namespace
+
+SweepLoad plan_sweep(const SweepFile& sweep, const std::vector<Override>& settings, Registry& registry) {
+  return Planner(sweep, settings, registry).plan();
+}
+
+Pipeline variant_pipeline(const SweepFile& sweep, const SweepPlan& plan, const SweepVariant& variant) {
+  Pipeline pipeline;
+  pipeline.file = sweep.base;
+  pipeline.summary = plan.merged.summary;
+  pipeline.seed = variant.seed;
+  std::unordered_map<std::size_t, std::size_t> place;
+  for (std::size_t n = 0; n < variant.nodes.size(); ++n) {
+    PipelineNode node = plan.merged.nodes[variant.nodes[n]];
+    place.emplace(variant.nodes[n], n);
+    node.path = node.path.substr(node.path.find('/') + 1);
+    node.folder.clear();
+    for (auto& port : node.inputs)
+      for (auto& edge : port) edge.node = place.at(edge.node);
+    pipeline.nodes.push_back(std::move(node));
+  }
+  for (const auto& output : variant.outputs)
+    pipeline.outputs.push_back({output.name, {place.at(output.from.node), output.from.output}});
+  return pipeline;
+}
+
+std::string label_of(const SweepFile& sweep, const SweepVariant& variant) {
+  std::string label;
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
+    const SweepAxis& axis = sweep.axes[a];
+    if (axis.choices.size() < 2) continue;
+    const std::string& choice = axis.choices[variant.choices[a]].label;
+    const bool named = axis.name == "scene" || axis.name == "variant" || axis.name == "ablation";
+    label += (label.empty() ? "" : ", ") + (named ? choice : axis.name + " = " + choice);
+  }
+  return label.empty() ? "the only variant" : label;
+}
+
+}  // namespace atrium

@@ -1,0 +1,135 @@
+#include "graph/sweep/result.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace atrium {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// What tells whether a file was changed: size and time, in nanoseconds.
+Json fingerprint(const std::string& path) {
+  struct stat info {};
+  if (::stat(path.c_str(), &info) != 0) return {{"path", path}, {"missing", true}};
+  return {{"path", path},
+          {"bytes", static_cast<std::uint64_t>(info.st_size)},
+          {"changed", fmt::format("{}.{:09}", info.st_mtim.tv_sec, info.st_mtim.tv_nsec)}};
+}
+
+Json inputs_of(const SweepPlan& plan, const SweepVariant& variant) {
+  Json inputs = Json::array();
+  for (const std::size_t n : variant.nodes) {
+    const PipelineNode& node = plan.merged.nodes[n];
+    for (std::size_t i = 0; i < node.params.size(); ++i) {
+      const ParamKind kind = node.type->params[i].kind;
+      if (kind == ParamKind::input_path) inputs.push_back(fingerprint(std::get<std::string>(node.params[i])));
+      if (kind != ParamKind::input_paths) continue;
+      for (const auto& path : std::get<std::vector<std::string>>(node.params[i])) inputs.push_back(fingerprint(path));
+    }
+  }
+  return inputs;
+}
+
+Json fact_json(const Fact& fact) {
+  Json json{{"name", fact.name}};
+  std::visit([&](const auto& value) { json["value"] = value; }, fact.value);
+  if (!fact.unit.empty()) json["unit"] = fact.unit;
+  return json;
+}
+
+Fact read_fact(const Json& json) {
+  Fact fact{json.at("name").get<std::string>(), {}, json.value("unit", "")};
+  const Json& value = json.at("value");
+  if (value.is_boolean())
+    fact.value = value.get<bool>();
+  else if (value.is_number_integer())
+    fact.value = value.get<std::int64_t>();
+  else if (value.is_string())
+    fact.value = value.get<std::string>();
+  else
+    fact.value = value.is_null() ? std::nan("") : value.get<double>();
+  return fact;
+}
+
+NodeStatus read_status(const std::string& text) {
+  for (const auto status : {NodeStatus::ok, NodeStatus::failed, NodeStatus::skipped})
+    if (name_of(status) == text) return status;
+  return NodeStatus::cancelled;
+}
+
+VariantResult read_result(const Json& json) {
+  VariantResult result;
+  result.status = read_status(json.at("status").get<std::string>());
+  for (const auto& node : json.at("nodes"))
+    result.nodes.push_back({node.at("node").get<std::string>(), node.at("type").get<std::string>(),
+                            read_status(node.at("status").get<std::string>()), node.at("wall_seconds").get<double>(),
+                            node.at("cpu_seconds").get<double>(), node.at("peak_memory").get<std::uint64_t>()});
+  for (const auto& output : json.at("outputs")) {
+    auto& facts = result.outputs.emplace_back(VariantResult::Output{output.at("name").get<std::string>(), {}}).facts;
+    for (const auto& fact : output.at("facts")) facts.push_back(read_fact(fact));
+  }
+  for (const auto& artefact : json.at("artefacts"))
+    result.artefacts.push_back({artefact.at("path").get<std::string>(), artefact.at("bytes").get<std::uint64_t>()});
+  result.reused = true;
+  return result;
+}
+
+}  // namespace
+
+std::string result_json(const SweepFile& sweep, const SweepPlan& plan, const SweepVariant& variant,
+                        const VariantResult& result, const std::string& build) {
+  Json json{{"atrium", framework_version()},
+            {"build", build},
+            {"id", variant.id},
+            {"variant", label_of(sweep, variant)},
+            {"status", name_of(result.status)}};
+  if (!result.message.empty()) json["message"] = result.message;
+  json["choices"] = Json::object();
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a)
+    json["choices"][sweep.axes[a].name] = sweep.axes[a].choices[variant.choices[a]].label;
+  json["inputs"] = inputs_of(plan, variant);
+  json["outputs"] = Json::array();
+  for (const auto& output : result.outputs) {
+    Json facts = Json::array();
+    for (const auto& fact : output.facts) facts.push_back(fact_json(fact));
+    json["outputs"].push_back({{"name", output.name}, {"facts", std::move(facts)}});
+  }
+  json["artefacts"] = Json::array();
+  for (const auto& artefact : result.artefacts)
+    json["artefacts"].push_back({{"path", artefact.path}, {"bytes", artefact.bytes}});
+  json["nodes"] = Json::array();
+  for (const auto& node : result.nodes)
+    json["nodes"].push_back({{"node", node.path},
+                             {"type", node.type},
+                             {"status", name_of(node.status)},
+                             {"wall_seconds", node.wall},
+                             {"cpu_seconds", node.cpu},
+                             {"peak_memory", node.peak_memory}});
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::optional<VariantResult> reusable_result(const fs::path& folder, const SweepPlan& plan, const SweepVariant& variant,
+                                             const std::string& build) {
+  std::ifstream file(folder / "result.json");
+  const Json json = Json::parse(file, nullptr, false);
+  if (!json.is_object()) return std::nullopt;
+  try {
+    if (json.at("build") != build || json.at("status") != "ok" || json.at("inputs") != inputs_of(plan, variant))
+      return std::nullopt;
+    VariantResult result = read_result(json);
+    for (const auto& artefact : result.artefacts) {
+      std::error_code gone;
+      if (fs::file_size(folder / artefact.path, gone) != artefact.bytes || gone) return std::nullopt;
+    }
+    return result;
+  } catch (const Json::exception&) {  // of another version, or not ours
+    return std::nullopt;
+  }
+}
+
+}  // namespace atrium

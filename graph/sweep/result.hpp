@@ -1,0 +1,50 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "graph/run/runner.hpp"
+#include "graph/sweep/plan.hpp"
+#include "graph/sweep/table.hpp"
+
+namespace atrium {
+
+/// What became of one variant.
+struct VariantResult {
+  struct Node {
+    std::string path, type;
+    NodeStatus status = NodeStatus::cancelled;
+    double wall = 0, cpu = 0;
+    std::uint64_t peak_memory = 0;
+  };
+  struct Output {
+    std::string name;
+    std::vector<Fact> facts;
+  };
+  NodeStatus status = NodeStatus::cancelled;  ///< ok, failed or cancelled
+  std::string message;                        ///< of the node that failed first, with its path
+  std::vector<Node> nodes;
+  std::vector<Output> outputs;
+  std::vector<Artefact> artefacts;  ///< relative to the variant's folder
+  bool reused = false;              ///< it was there already, from an earlier run of the sweep
+};
+
+/// The file `result.json` of a variant: what became of it, and what it depended on (Atrium's build, the input files).
+std::string result_json(const SweepFile& sweep, const SweepPlan& plan, const SweepVariant& variant,
+                        const VariantResult& result, const std::string& build);
+
+/// Reads it back; nothing unless the variant was done by the same build, its input files are the same (size and time of
+/// change) and the files that it wrote are still there.
+std::optional<VariantResult> reusable_result(const std::filesystem::path& folder, const SweepPlan& plan,
+                                             const SweepVariant& variant, const std::string& build);
+
+/// One row per variant: what it differs in, the metrics, what it cost; in full precision. `unknown` gets the metrics
+/// that no variant has.
+Table full_table(const SweepFile& sweep, const SweepPlan& plan, const std::vector<VariantResult>& results,
+                 std::vector<std::string>* unknown = nullptr);
+
+/// The same for people: rounded, and one row for all seeds ("mean ± standard deviation").
+Table short_table(const SweepFile& sweep, const SweepPlan& plan, const std::vector<VariantResult>& results);
+
+}  // namespace atrium

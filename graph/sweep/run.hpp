@@ -1,0 +1,27 @@
+#pragma once
+#include "graph/sweep/result.hpp"
+
+namespace atrium {
+
+struct SweepOptions {
+  std::filesystem::path out;  ///< the sweep's folder
+  int threads = 0;
+  bool hashes = true;
+  std::size_t max_failures = ~std::size_t{0};  ///< end the sweep when so many variants have failed
+  const std::atomic<bool>* cancel = nullptr;
+};
+
+struct SweepResult {
+  std::vector<VariantResult> variants;  ///< in the plan's order
+  bool cancelled = false;
+  double wall = 0;
+  std::uint64_t peak_memory = 0;
+};
+
+/// Runs the variants that are not done yet, nodes that several share once, into OUT/variants/ID. A variant is recorded
+/// (result.json) as soon as its last node is done: a sweep that is killed goes on where it was. A variant that fails
+/// costs the others nothing. Writes table.csv, table.md and table.txt. Throws FolderError.
+SweepResult run_sweep(const SweepFile& sweep, const SweepPlan& plan, const std::string& build,
+                      const SweepOptions& options, ProgressSink& progress);
+
+}  // namespace atrium

@@ -1,0 +1,88 @@
+#include "graph/sweep/samples.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "graph/api/random.hpp"
+
+namespace atrium {
+namespace {
+
+struct Quantity {
+  double number = 0;
+  std::string unit;
+};
+
+Quantity quantity(const YamlNode& node) {
+  Quantity result;
+  const char* end = node.text.data() + node.text.size();
+  const auto [rest, problem] = std::from_chars(node.text.data(), end, result.number);
+  if (!node.is_scalar() || problem != std::errc{} || !std::isfinite(result.number))
+    throw Error(fmt::format("has the bound '{}', which is no number", node.text), "as in {uniform: [1 cm, 4 cm]}");
+  result.unit = std::string(rest, end);
+  return result;
+}
+
+}  // namespace
+
+Distribution read_distribution(const YamlNode& node) {
+  const Error shape(
+      "is not drawn from a distribution",
+      "{uniform: [low, high]}, {loguniform: [low, high]}, {integers: [low, high]} or {choice: [a, b, …]}");
+  if (!node.is_mapping() || node.entries.size() != 1) throw shape;
+  const auto& [name, place, range] = node.entries.front();
+  Distribution result;
+  if (name == "uniform") {
+    result.kind = Distribution::Kind::uniform;
+  } else if (name == "loguniform") {
+    result.kind = Distribution::Kind::loguniform;
+  } else if (name == "integers") {
+    result.kind = Distribution::Kind::integers;
+  } else if (name == "choice") {
+    result.kind = Distribution::Kind::choice;
+  } else {
+    throw shape;
+  }
+  if (!range.is_sequence() || range.items.empty()) throw shape;
+  if (result.kind == Distribution::Kind::choice) {
+    for (const auto& item : range.items) result.choices.push_back(item.text);
+    return result;
+  }
+  if (range.items.size() != 2) throw Error(fmt::format("needs two bounds, not {}", range.items.size()), shape.help());
+  const Quantity low = quantity(range.items[0]);
+  const Quantity high = quantity(range.items[1]);
+  if (low.unit != high.unit)
+    throw Error(fmt::format("has bounds in different units: '{}' and '{}'", range.items[0].text, range.items[1].text),
+                "write both in the same unit");
+  if (low.number > high.number) throw Error("has its bounds the wrong way round", "the lower one first");
+  if (result.kind == Distribution::Kind::loguniform && low.number <= 0)
+    throw Error("is drawn loguniformly from bounds that are not above zero", "{loguniform: [1 mm, 1 m]}");
+  if (result.kind == Distribution::Kind::integers &&
+      (low.number != std::floor(low.number) || high.number != std::floor(high.number)))
+    throw Error("is drawn from integers between bounds that are none", "{integers: [1, 9]}");
+  result.low = low.number;
+  result.high = high.number;
+  result.unit = low.unit;
+  return result;
+}
+
+std::string sample(const Distribution& distribution, std::uint64_t seed, std::string_view target, std::uint64_t index) {
+  Random random(mix_seed(mix_seed(seed, XXH3_64bits(target.data(), target.size())), index));
+  switch (distribution.kind) {
+    case Distribution::Kind::uniform:
+      return fmt::format("{:.6g}{}", random.uniform(distribution.low, distribution.high), distribution.unit);
+    case Distribution::Kind::loguniform:
+      return fmt::format("{:.6g}{}", std::exp(random.uniform(std::log(distribution.low), std::log(distribution.high))),
+                         distribution.unit);
+    case Distribution::Kind::integers: {
+      const auto steps = static_cast<std::uint64_t>(distribution.high - distribution.low) + 1;
+      return fmt::format("{:.0f}{}", distribution.low + static_cast<double>(random.index(steps)), distribution.unit);
+    }
+    default: return distribution.choices[random.index(distribution.choices.size())];
+  }
+}
+
+}  // namespace atrium

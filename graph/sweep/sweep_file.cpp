@@ -1,0 +1,360 @@
+#include "graph/sweep/sweep_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "graph/api/suggest.hpp"
+#include "graph/sweep/samples.hpp"
+
+namespace atrium {
+namespace {
+
+/// A value as -s takes it.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + "\"";
+}
+
+std::string item_text(const YamlNode& node, bool in_list) {
+  const bool plain = !node.quoted && !node.text.empty() && node.text.find_first_of("[\"'") != 0 &&
+                     (!in_list || node.text.find_first_of(",]{}#:") == std::string::npos);
+  return plain ? node.text : quoted(node.text);
+}
+
+class Reader {
+ public:
+  Reader(SweepFile& sweep, Findings& findings) : sweep_(sweep), findings_(findings) {}
+
+  void read(const YamlNode& root) {
+    check_keys(root,
+               {"atrium", "sweep", "summary", "set", "scenes", "seeds", "grid", "zip", "list", "ablate", "random",
+                "exclude", "metrics", "pictures"},
+               "a sweep file");
+    read_format(root);
+    read_base(root);
+    if (const auto* entry = root.find("summary")) sweep_.summary = scalar(*entry);
+    if (const auto* entry = root.find("set")) sweep_.settings = settings(*entry);
+    named_choices(root.find("scenes"), "scene", {});
+    named_choices(root.find("list"), "variant", {});
+    named_choices(root.find("ablate"), "ablation", "everything");
+    read_zip(root.find("zip"));
+    read_grid(root.find("grid"));
+    read_random(root.find("random"));
+    read_seeds(root.find("seeds"));
+    read_exclude(root.find("exclude"));
+    read_metrics(root.find("metrics"));
+    read_sheets(root.find("pictures"));
+    check_targets();
+  }
+
+ private:
+  void error(Place place, std::string message, std::string help = {}) {
+    findings_.error({&sweep_.source, place}, std::move(message), std::move(help));
+  }
+
+  void check_keys(const YamlNode& mapping, const std::vector<std::string>& allowed, const std::string& what) {
+    for (const auto& entry : mapping.entries) {
+      if (std::find(allowed.begin(), allowed.end(), entry.key) != allowed.end()) continue;
+      const std::string hint = findings_.suggest(entry.key, allowed);
+      error(entry.place, fmt::format("unknown key '{}' in {}", entry.key, what),
+            hint.empty() ? fmt::format("keys of {}: {}", what, join_words(allowed, 20)) : hint);
+    }
+  }
+
+  std::string scalar(const YamlNode::Entry& entry) {
+    if (entry.value.is_scalar()) return entry.value.text;
+    error(entry.value.place, entry.value.is_null() ? fmt::format("'{}' has no value", entry.key)
+                                                   : fmt::format("'{}' must be a single value", entry.key));
+    return {};
+  }
+
+  const std::vector<YamlNode::Entry>& mapping(const YamlNode::Entry* entry, std::string_view help) {
+    static const std::vector<YamlNode::Entry> nothing;
+    if (entry == nullptr) return nothing;
+    if (entry->value.is_mapping() && !entry->value.entries.empty()) return entry->value.entries;
+    error(entry->value.place, fmt::format("'{}' must be a mapping that is not empty", entry->key), std::string(help));
+    return nothing;
+  }
+
+  std::optional<std::int64_t> whole(const YamlNode::Entry& entry, std::int64_t low, std::int64_t high) {
+    const std::string text = scalar(entry);
+    std::int64_t value = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (problem == std::errc{} && end == text.data() + text.size() && value >= low && value <= high) return value;
+    error(entry.value.place, fmt::format("'{}' is no whole number from {} to {}", text, low, high));
+    return std::nullopt;
+  }
+
+  std::optional<std::string> value_text(const YamlNode& node, std::string_view target) {
+    if (node.is_scalar()) return item_text(node, false);
+    const auto is_scalar = [](const YamlNode& item) { return item.is_scalar(); };
+    if (node.is_sequence() && std::all_of(node.items.begin(), node.items.end(), is_scalar)) {
+      std::string list;
+      for (const auto& item : node.items) list += (list.empty() ? "" : ", ") + item_text(item, true);
+      return "[" + list + "]";
+    }
+    error(node.place, fmt::format("'{}' must be a value or a list of values", target));
+    return std::nullopt;
+  }
+
+  std::vector<SweepSetting> settings(const YamlNode::Entry& entry) {
+    std::vector<SweepSetting> result;
+    for (const auto& item : mapping(&entry, "write `NODE.PARAMETER: value` lines below it"))
+      if (auto value = value_text(item.value, item.key)) result.push_back({item.key, std::move(*value), item.place});
+    return result;
+  }
+
+  void read_format(const YamlNode& root) {
+    const auto* entry = root.find("atrium");
+    if (entry == nullptr)
+      error({}, "the format version is missing", "begin the file with `atrium: 1`");
+    else if (!entry->value.is_scalar() || entry->value.text != "1")
+      error(entry->value.place, fmt::format("unknown format version '{}'", entry->value.text),
+            "this program reads `atrium: 1`");
+  }
+
+  void read_base(const YamlNode& root) {
+    const auto* entry = root.find("sweep");
+    if (entry == nullptr) {
+      error({}, "this is no sweep file: the key 'sweep' is missing", "`sweep: FILE` names the pipeline that is varied");
+      return;
+    }
+    sweep_.base_place = entry->value.place;
+    const std::string text = scalar(*entry);
+    if (text.empty()) return;
+    sweep_.base = (sweep_.source.folder / text).lexically_normal();
+    sweep_.base_name = (std::filesystem::path(sweep_.source.name).parent_path() / text).lexically_normal().string();
+    std::error_code missing;
+    if (!std::filesystem::is_regular_file(sweep_.base, missing))
+      error(sweep_.base_place, fmt::format("no such pipeline file: {}", sweep_.base_name),
+            "the path is relative to the file that it stands in");
+  }
+
+  void named_choices(const YamlNode::Entry* section, std::string name, std::string_view first) {
+    if (section == nullptr) return;
+    SweepAxis axis{std::move(name), {}};
+    if (!first.empty()) axis.choices.push_back({std::string(first), {}, section->place});
+    for (const auto& entry : mapping(section, "write `NAME: {TARGET: value, …}` lines below it")) {
+      const bool nothing = entry.value.is_null() || (entry.value.is_mapping() && entry.value.entries.empty());
+      axis.choices.push_back({entry.key, nothing ? std::vector<SweepSetting>{} : settings(entry), entry.place});
+    }
+    sweep_.axes.push_back(std::move(axis));
+  }
+
+  /// `TARGET: [value, …]`. A value may itself be a list.
+  std::vector<SweepChoice> values(const YamlNode::Entry& entry) {
+    std::vector<SweepChoice> choices;
+    if (!entry.value.is_sequence() || entry.value.items.empty()) {
+      error(entry.value.place, fmt::format("'{}' must be a list of values", entry.key));
+      return choices;
+    }
+    for (const auto& item : entry.value.items)
+      if (auto value = value_text(item, entry.key))
+        choices.push_back({item.is_scalar() ? item.text : *value, {{entry.key, *value, item.place}}, item.place});
+    return choices;
+  }
+
+  void read_grid(const YamlNode::Entry* section) {
+    for (const auto& entry : mapping(section, "write `TARGET: [value, …]` lines below it"))
+      sweep_.axes.push_back({entry.key, values(entry)});
+  }
+
+  void read_zip(const YamlNode::Entry* section) {
+    SweepAxis axis;
+    for (const auto& entry : mapping(section, "write `TARGET: [value, …]` lines below it")) {
+      auto column = values(entry);
+      axis.name += (axis.name.empty() ? "" : ", ") + entry.key;
+      if (axis.choices.empty()) {
+        axis.choices = std::move(column);
+        continue;
+      }
+      if (column.size() != axis.choices.size()) {
+        error(entry.place, fmt::format("'{}' has {} values, but the first of the zip has {}", entry.key, column.size(),
+                                       axis.choices.size()));
+        continue;
+      }
+      for (std::size_t i = 0; i < column.size(); ++i) {
+        axis.choices[i].label += ", " + column[i].label;
+        axis.choices[i].settings.push_back(std::move(column[i].settings.front()));
+      }
+    }
+    if (!axis.choices.empty()) sweep_.axes.push_back(std::move(axis));
+  }
+
+  void read_random(const YamlNode::Entry* section) {
+    if (section == nullptr) return;
+    if (!section->value.is_mapping()) {
+      error(section->value.place, "'random' must be a mapping",
+            "{samples: 20, seed: 1, of: {TARGET: {uniform: [a, b]}}}");
+      return;
+    }
+    check_keys(section->value, {"samples", "seed", "of"}, "'random'");
+    const auto* samples = section->value.find("samples");
+    const auto* of = section->value.find("of");
+    const auto* seed = section->value.find("seed");
+    if (samples == nullptr || of == nullptr) {
+      error(section->place, fmt::format("'random' lacks '{}'", samples == nullptr ? "samples" : "of"),
+            "{samples: 20, seed: 1, of: {TARGET: {uniform: [a, b]}}}");
+      return;
+    }
+    const auto count = whole(*samples, 1, 100'000);
+    const auto start = seed == nullptr ? std::optional<std::int64_t>(1) : whole(*seed, 0, INT64_MAX);
+    if (!count || !start) return;
+    SweepAxis axis{"sample", {}};
+    for (std::int64_t i = 0; i < *count; ++i) axis.choices.push_back({std::to_string(i + 1), {}, section->place});
+    for (const auto& entry : mapping(of, "write `TARGET: {uniform: [low, high]}` lines below it")) {
+      try {
+        const Distribution distribution = read_distribution(entry.value);
+        for (std::size_t i = 0; i < axis.choices.size(); ++i)
+          axis.choices[i].settings.push_back(
+              {entry.key, sample(distribution, static_cast<std::uint64_t>(*start), entry.key, i), entry.place});
+      } catch (const Error& problem) {
+        error(entry.value.place, fmt::format("'{}' {}", entry.key, problem.what()), problem.help());
+      }
+    }
+    sweep_.axes.push_back(std::move(axis));
+  }
+
+  void read_seeds(const YamlNode::Entry* section) {
+    if (section == nullptr) return;
+    SweepAxis axis{"seed", values(*section)};
+    for (auto& choice : axis.choices)
+      for (auto& setting : choice.settings) setting.target = "seed";
+    sweep_.axes.push_back(std::move(axis));
+  }
+
+  void read_exclude(const YamlNode::Entry* section) {
+    if (section == nullptr) return;
+    if (!section->value.is_sequence()) {
+      error(section->value.place, "'exclude' must be a list", "as in `- {scene: office, planes.distance: 1 cm}`");
+      return;
+    }
+    for (const auto& item : section->value.items) {
+      YamlNode::Entry entry{"exclude", item.place, item};
+      auto conditions = settings(entry);
+      for (auto& condition : conditions)
+        if (const auto* value = item.find(condition.target); value != nullptr && value->value.is_scalar())
+          condition.value = value->value.text;
+      sweep_.exclude.push_back(std::move(conditions));
+    }
+  }
+
+  void read_metrics(const YamlNode::Entry* section) {
+    for (const auto& entry : mapping(section, "write `NAME: OUTPUT.METRIC` lines below it")) {
+      SweepMetric metric;
+      metric.name = entry.key;
+      metric.place = entry.place;
+      if (entry.value.is_mapping())
+        read_metric(entry.value, metric);
+      else
+        set_fact(metric, scalar(entry));
+      sweep_.metrics.push_back(std::move(metric));
+    }
+  }
+
+  static void set_fact(SweepMetric& metric, const std::string& text) {
+    const std::size_t dot = text.find('.');
+    metric.output = text.substr(0, dot);
+    if (dot != std::string::npos) metric.fact = text.substr(dot + 1);
+  }
+
+  void read_metric(const YamlNode& node, SweepMetric& metric) {
+    check_keys(node, {"of", "seconds", "memory", "unit", "digits"}, "a metric");
+    const auto* of = node.find("of");
+    const auto* seconds = node.find("seconds");
+    const auto* memory = node.find("memory");
+    if ((of != nullptr) + (seconds != nullptr) + (memory != nullptr) != 1) {
+      error(metric.place, fmt::format("the metric '{}' needs one of 'of', 'seconds' and 'memory'", metric.name),
+            "{of: OUTPUT.METRIC}, {seconds: NODE} or {memory: NODE}");
+      return;
+    }
+    if (of != nullptr) {
+      set_fact(metric, scalar(*of));
+    } else {
+      metric.kind = seconds != nullptr ? SweepMetric::Kind::seconds : SweepMetric::Kind::memory;
+      const auto* cost = seconds != nullptr ? seconds : memory;
+      if (!cost->value.is_null()) metric.node = scalar(*cost);
+      if (metric.node == "all") metric.node.clear();
+    }
+    if (const auto* unit = node.find("unit")) metric.unit = scalar(*unit);
+    if (const auto* digits = node.find("digits"))
+      if (const auto value = whole(*digits, 0, 12)) metric.digits = static_cast<int>(*value);
+  }
+
+  void read_sheets(const YamlNode::Entry* section) {
+    for (const auto& entry : mapping(section, "write `SHEET.png: PICTURE.png` lines below it")) {
+      SweepSheet sheet{entry.key, {}};
+      sheet.place = entry.place;
+      if (!entry.value.is_mapping()) {
+        sheet.picture = scalar(entry);
+      } else {
+        check_keys(entry.value, {"picture", "columns", "cell_width"}, "a sheet");
+        if (const auto* picture = entry.value.find("picture"))
+          sheet.picture = scalar(*picture);
+        else
+          error(entry.place, fmt::format("the sheet '{}' names no picture", entry.key), "{picture: FILE.png}");
+        if (const auto* columns = entry.value.find("columns")) sheet.columns = whole(*columns, 1, 20).value_or(1);
+        if (const auto* width = entry.value.find("cell_width")) sheet.cell_width = whole(*width, 64, 4096).value_or(64);
+      }
+      sweep_.sheets.push_back(std::move(sheet));
+    }
+  }
+
+  /// Two axes that set the same thing would overrule each other.
+  void check_targets() {
+    struct Setter {
+      std::string target, by;
+    };
+    std::vector<Setter> setters;
+    const auto claim = [&](const SweepSetting& setting, const std::string& by) {
+      for (const auto& other : setters) {
+        if (other.target != setting.target || other.by == by) continue;
+        error(setting.place, fmt::format("'{}' is set by '{}' and by '{}'", setting.target, other.by, by),
+              "each thing is varied in one place");
+        return;
+      }
+      setters.push_back({setting.target, by});
+    };
+    for (const auto& setting : sweep_.settings) claim(setting, "set");
+    for (const auto& axis : sweep_.axes)
+      for (const auto& choice : axis.choices)
+        for (const auto& setting : choice.settings) {
+          const auto known = [&](const Setter& s) { return s.target == setting.target && s.by == axis.name; };
+          if (std::none_of(setters.begin(), setters.end(), known)) claim(setting, axis.name);
+        }
+  }
+
+  SweepFile& sweep_;
+  Findings& findings_;
+};
+
+}  // namespace
+
+std::unique_ptr<SweepFile> read_sweep(const std::filesystem::path& path, const std::string& name, Findings& findings) {
+  auto sweep = std::make_unique<SweepFile>();
+  sweep->path = path;
+  sweep->source = {name, path.parent_path(), 0};
+  const YamlTree tree = read_yaml(path.string());
+  for (const auto& problem : tree.problems)
+    findings.error({&sweep->source, problem.place}, problem.message, problem.help);
+  if (!tree.root) return sweep;
+  if (tree.root->is_mapping())
+    Reader(*sweep, findings).read(*tree.root);
+  else
+    findings.error({&sweep->source, tree.root->place}, "a sweep file is a mapping of keys to values",
+                   "it begins with `atrium: 1`");
+  return sweep;
+}
+
+bool is_sweep_file(const std::filesystem::path& path) {
+  const YamlTree tree = read_yaml(path.string());
+  return tree.root && tree.root->is_mapping() && tree.root->find("sweep") != nullptr;
+}
+
+}  // namespace atrium

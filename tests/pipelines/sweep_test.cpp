@@ -1,0 +1,239 @@
+// `atrium sweep` as its users see it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/support/process.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace atrium::test {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+class Sweep : public testing::Test {
+ protected:
+  Sweep() {
+    write_text(folder / "base.yaml", R"(atrium: 1
+summary: Two numbers.
+vars: {start: 1 m}
+nodes:
+  first: {type: trial.step, params: {value: "${start}"}}
+  second: {type: trial.step, in: {after: first.value}, params: {value: 2}}
+  random: {type: trial.step, in: {after: first.value}, params: {value: 0}}
+  write: {type: trial.write, in: {value: first.value}, params: {path: sub/value.txt}}
+outputs: {first: first.value, number: second.value, random: random.value, text: second.text}
+)");
+  }
+  ProcessResult atrium(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {ATRIUM_PROGRAM, "sweep"});
+    ProcessOptions options;
+    options.folder = folder.path();
+    options.environment.push_back("ATRIUM_PLUGIN_PATH=" ATRIUM_TRIAL_PLUGIN);
+    return run_process(arguments, options);
+  }
+  void sweep(const std::string& rest) { write_text(folder / "s.yaml", "atrium: 1\nsweep: base.yaml\n" + rest); }
+  json variants(const ProcessResult& result) { return json::parse(result.out).at("variants"); }
+  std::set<std::string> ids(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"plan", "s.yaml", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = atrium(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::set<std::string> found;
+    for (const auto& variant : variants(result)) found.insert(variant.at("id"));
+    return found;
+  }
+  /// How many nodes were executed by the last run in the folder.
+  std::size_t executed() { return json::parse(read_text(folder / "out/manifest.json")).at("nodes").size(); }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(Sweep, RunsAllCombinationsAndPrintsTheirTable) {
+  sweep(
+      "grid: {second.value: [2, 3]}\nscenes: {near: {start: 1 m}, far: {start: 10 m}}\n"
+      "metrics: {sum: number, in cm: {of: number, digits: 2}}\n");
+  const auto result = atrium({"run", "s.yaml", "--out", "out", "--quiet"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out,
+            "scene  second.value  sum  in cm  status\n"
+            "near   2               3   3.00  ok\n"
+            "near   3               4   4.00  ok\n"
+            "far    2              12  12.00  ok\n"
+            "far    3              13  13.00  ok\n");
+  EXPECT_EQ(read_text(folder / "out/table.txt"), result.out);
+  EXPECT_NE(read_text(folder / "out/table.md").find("| scene | second.value | sum |"), std::string::npos);
+  EXPECT_NE(read_text(folder / "out/table.csv").find(",near,2,"), std::string::npos);
+}
+
+TEST_F(Sweep, WhatVariantsShareRunsOnceAndEachFolderIsComplete) {
+  sweep("grid: {second.value: [2, 3, 4]}\n");
+  const auto result = atrium({"run", "s.yaml", "--out", "out", "--quiet"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(executed(), 3U + 3U);  // first, random and write once, second three times
+  std::size_t folders = 0;
+  for (const auto& variant : fs::directory_iterator(folder / "out/variants")) {
+    ++folders;
+    EXPECT_EQ(read_text(variant.path() / "sub/value.txt"), "1.000000\n");
+    EXPECT_TRUE(fs::exists(variant.path() / "resolved.yaml"));
+  }
+  EXPECT_EQ(folders, 3U);
+}
+
+TEST_F(Sweep, SeedsAreAveragedInTheTable) {
+  sweep("seeds: [1, 2, 3]\nmetrics: {random: random, sum: number}\n");
+  const auto result = atrium({"run", "s.yaml", "--out", "out", "--quiet"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  // The nodes of the type trial.step say that they draw randomness, and write reads one of them: nothing is shared.
+  EXPECT_EQ(executed(), 3U * 4U);
+  EXPECT_NE(result.out.find(" ± "), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("seed"), std::string::npos) << result.out;
+  EXPECT_NE(read_text(folder / "out/table.csv").find("seed"), std::string::npos);
+}
+
+TEST_F(Sweep, AVariantIsWhatItsOwnFileGives) {
+  sweep("grid: {second.value: [2, 3]}\nseeds: [7]\n");
+  ASSERT_EQ(atrium({"run", "s.yaml", "--out", "out", "--quiet"}).exit_code, 0);
+  for (const auto& variant : fs::directory_iterator(folder / "out/variants")) {
+    ProcessOptions options;
+    options.folder = folder.path();
+    options.environment.push_back("ATRIUM_PLUGIN_PATH=" ATRIUM_TRIAL_PLUGIN);
+    const std::string alone = (folder / ("alone-" + variant.path().filename().string())).string();
+    const auto result = run_process(
+        {ATRIUM_PROGRAM, "run", (variant.path() / "resolved.yaml").string(), "--quiet", "--json", "--out", alone},
+        options);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json recorded = json::parse(read_text(variant.path() / "result.json"));
+    const json run = json::parse(result.out).at("outputs");
+    ASSERT_EQ(recorded.at("outputs").size(), run.size());
+    for (const auto& output : recorded.at("outputs"))
+      EXPECT_EQ(output.at("facts")[0].at("value"), run.at(output.at("name").get<std::string>()).at("value"));
+    EXPECT_EQ(read_text(variant.path() / "sub/value.txt"), read_text(fs::path(alone) / "sub/value.txt"));
+  }
+}
+
+TEST_F(Sweep, WhatIsDoneIsNotDoneAgainAndGrowingRenamesNothing) {
+  sweep("grid: {second.value: [2, 3]}\n");
+  const auto before = ids();
+  ASSERT_EQ(atrium({"run", "s.yaml", "--out", "out", "--quiet"}).exit_code, 0);
+  sweep("grid: {second.value: [4, 2, 3]}\n");
+  const auto after = ids();
+  EXPECT_EQ(after.size(), 3U);
+  for (const auto& id : before) EXPECT_TRUE(after.contains(id));
+  const auto result = atrium({"run", "s.yaml", "--out", "out"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("3 variants done (2 before)"), std::string::npos) << result.err;
+  EXPECT_EQ(executed(), 4U);
+}
+
+TEST_F(Sweep, AVariantWhoseFilesAreGoneRunsAgain) {
+  sweep("grid: {second.value: [2, 3]}\n");
+  ASSERT_EQ(atrium({"run", "s.yaml", "--out", "out", "--quiet"}).exit_code, 0);
+  const std::string id = *ids().begin();
+  fs::remove(folder / "out/variants" / id / "sub/value.txt");
+  const auto result = atrium({"run", "s.yaml", "--out", "out"});
+  EXPECT_NE(result.err.find("(1 before)"), std::string::npos) << result.err;
+  EXPECT_EQ(read_text(folder / "out/variants" / id / "sub/value.txt"), "1.000000\n");
+}
+
+TEST_F(Sweep, AVariantThatFailsCostsTheOthersNothing) {
+  sweep("list: {good: {}, bad: {second.mode: fail}, other: {second.value: 5}}\nmetrics: {sum: number}\n");
+  const auto result = atrium({"run", "s.yaml", "--out", "out", "--quiet"});
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_NE(result.out.find("good       3  ok"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("bad        –  failed: second:"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("other      6  ok"), std::string::npos) << result.out;
+  sweep("list: {bad: {second.mode: fail}}\n");
+  EXPECT_EQ(atrium({"run", "s.yaml", "--out", "all-bad", "--quiet"}).exit_code, 1);
+}
+
+TEST_F(Sweep, EndsWhenEnoughHaveFailed) {
+  sweep("set: {second.mode: fail}\ngrid: {second.value: [1, 2, 3, 4, 5, 6, 7, 8]}\nmetrics: {sum: number}\n");
+  const auto result = atrium({"run", "s.yaml", "--out", "out", "--quiet", "-j", "1", "--max-fail", "2"});
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  std::size_t cancelled = 0;
+  for (std::size_t at = 0; (at = result.out.find("cancelled", at)) != std::string::npos; ++at) ++cancelled;
+  EXPECT_EQ(cancelled, 6U) << result.out;
+}
+
+TEST_F(Sweep, AxesOfAllKinds) {
+  sweep(R"(zip: {first.value: [1, 2], second.value: [3, 4]}
+ablate: {no_second: {second.value: 0.5}}
+)");
+  EXPECT_NE(atrium({"plan", "s.yaml"}).exit_code, 0);  // two axes set the same parameter
+  sweep(R"(zip: {first.value: [1, 2], second.value: [3, 4]}
+ablate: {off: {random.value: 3}}
+random: {samples: 3, seed: 4, of: {write.path: {choice: [a.txt, b.txt]}}}
+exclude: [{ablation: off, second.value: 4}]
+)");
+  const auto plan = atrium({"plan", "s.yaml", "--json"});
+  ASSERT_EQ(plan.exit_code, 0) << plan.err;
+  const json report = json::parse(plan.out);
+  EXPECT_EQ(report.at("excluded"), 3);
+  EXPECT_EQ(report.at("variants").size() + report.at("duplicates").get<std::size_t>(), 9U);
+  EXPECT_GE(report.at("duplicates"), 3);  // three samples of two choices
+}
+
+TEST_F(Sweep, RandomSamplesStayWhenMoreAreDrawn) {
+  const auto of = [](int samples) {
+    return "random: {samples: " + std::to_string(samples) + ", of: {second.value: {loguniform: [1 mm, 1000 mm]}}}\n";
+  };
+  sweep(of(5));
+  const auto few = ids();
+  sweep(of(8));
+  const auto more = ids();
+  EXPECT_EQ(few.size(), 5U);
+  EXPECT_EQ(more.size(), 8U);
+  for (const auto& id : few) EXPECT_TRUE(more.contains(id));
+}
+
+struct Mistake {
+  std::string name, file, message;
+};
+class SweepMistake : public Sweep, public testing::WithParamInterface<Mistake> {};
+TEST_P(SweepMistake, IsSaidWithItsPlaceBeforeAnythingRuns) {
+  sweep(GetParam().file);
+  const auto result = atrium({"run", "s.yaml", "--out", "out"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find(GetParam().message), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+INSTANTIATE_TEST_SUITE_P(
+    Files, SweepMistake,
+    testing::Values(
+        Mistake{"key", "gird: {second.value: [1]}\n",
+                "s.yaml:3:1: error: unknown key 'gird' in a sweep file\n  help: did you mean 'grid'?"},
+        Mistake{"parameter", "grid: {second.valeu: [1, 2]}\n", "note: set by s.yaml:3:23"},
+        Mistake{"node", "grid: {secnd.value: [1, 2]}\n", "error: unknown node 'secnd'"},
+        Mistake{"value", "grid: {second.value: [1, 2 deg]}\n", "'2 deg' is an angle, but 'value' is a length"},
+        Mistake{"list", "grid: {second.value: 3}\n", "s.yaml:3:22: error: 'second.value' must be a list of values"},
+        Mistake{"zip", "zip: {first.value: [1, 2], second.value: [1]}\n",
+                "s.yaml:3:28: error: 'second.value' has 1 values, but the first of the zip has 2"},
+        Mistake{"twice", "grid: {second.value: [1]}\nset: {second.value: 2}\n",
+                "'second.value' is set by 'set' and by 'second.value'"},
+        Mistake{"metric", "metrics: {sum: nmuber}\n",
+                "s.yaml:3:11: error: base.yaml has no output 'nmuber'\n  help: did you mean 'number'?"},
+        Mistake{"cost", "metrics: {time: {seconds: secnd}}\n", "a variant has no node 'secnd'"},
+        Mistake{"exclude", "grid: {second.value: [1]}\nexclude: [{secnd.value: 1}]\n",
+                "'exclude' names 'secnd.value', which the sweep does not vary"},
+        Mistake{"excludes_nothing", "grid: {second.value: [1]}\nexclude: [{second.value: 7}]\n",
+                "this exclusion excludes nothing"},
+        Mistake{"all_excluded", "grid: {second.value: [1]}\nexclude: [{second.value: 1}]\n", "no variant is left"},
+        Mistake{"distribution", "random: {samples: 2, of: {second.value: {normal: [0, 1]}}}\n",
+                "'second.value' is not drawn from a distribution"},
+        Mistake{"units", "random: {samples: 2, of: {second.value: {uniform: [1 cm, 1 m]}}}\n",
+                "has bounds in different units"},
+        Mistake{"base", "grid: {}\n", "'grid' must be a mapping that is not empty"}),
+    [](const auto& info) { return info.param.name; });
+
+TEST_F(Sweep, AMetricThatNoVariantHasIsAnError) {
+  sweep("metrics: {sum: number.nothing}\n");
+  const auto result = atrium({"run", "s.yaml", "--out", "out", "--quiet"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("no variant has the metric 'sum'"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace atrium::test
