@@ -122,6 +122,22 @@ void sort_triangles(const Mesh& mesh, const Drawing::MeshStyle& style,
   }
 }
 
+void add_outline(vtkRenderer& renderer, vtkPoints* points, const Mesh& mesh, double width) {
+  vtkNew<vtkCellArray> lines;
+  for (const auto& [a, b] : outline_edges(mesh)) lines->InsertNextCell({a, b});
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(lines);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(0.15, 0.15, 0.15);
+  actor->GetProperty()->SetLineWidth(static_cast<float>(width));
+  actor->GetProperty()->LightingOff();
+  renderer.AddActor(actor);
+}
+
 }  // namespace
 
 void Drawing::add_mesh(const Mesh& mesh, const MeshStyle& style, const Textures* textures) {
@@ -169,16 +185,7 @@ void Drawing::add_mesh(const Mesh& mesh, const MeshStyle& style, const Textures*
     style_surface(actor, false);
     actor->GetProperty()->SetBackfaceCulling(style.inside ? 1 : 0);
   }
-  if (!style.edges) return;
-  vtkNew<vtkCellArray> lines;
-  for (const auto& [a, b] : outline_edges(sorted.outlined)) lines->InsertNextCell({a, b});
-  vtkNew<vtkPolyData> outline;
-  outline->SetPoints(points);
-  outline->SetLines(lines);
-  auto* edges = impl_->add(outline, false);
-  edges->GetProperty()->SetColor(0.15, 0.15, 0.15);
-  edges->GetProperty()->SetLineWidth(static_cast<float>(style.line_width));
-  edges->GetProperty()->LightingOff();
+  if (style.edges) add_outline(*impl_->renderer, points, sorted.outlined, style.line_width);
 }
 
 }  // namespace atrium::render
