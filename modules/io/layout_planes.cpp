@@ -38,7 +38,8 @@ Wall wall_of(const Ring& corners) {
 }
 
 Eigen::Vector2d corner_between(const Wall& a, const Wall& b) {
-  const Eigen::Vector2d middle = (a.to + b.from) / 2, d = a.direction(), e = b.direction();
+  const Eigen::Vector2d d = a.direction(), e = b.direction();
+  Eigen::Vector2d middle = (a.to + b.from) / 2;
   const double sine = d.x() * e.y() - d.y() * e.x();
   if (std::abs(sine) < std::sin(least_turn)) return middle;
   const Eigen::Vector2d gap = b.from - a.to;
