@@ -15,7 +15,7 @@ namespace atrium::baseline {
 struct Exchange {
   auto columns() { return std::tie(numbers, text, points, normals, triangles, indices); }
   std::vector<double> numbers;
-  std::string text;
+  std::string text;  ///< in a reply: why there is none, and from its second line on, what would help
   std::vector<std::array<double, 3>> points;
   std::vector<std::array<double, 3>> normals;
   std::vector<std::array<std::uint32_t, 3>> triangles;

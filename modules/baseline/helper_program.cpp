@@ -170,7 +170,9 @@ HelperResult run_helper(const HelperProgram& helper, const Exchange& request, Co
     throw Error(fmt::format("{} gave no reply that can be read: {}", helper.name, error.what()),
                 "build and install the plugin and its helper together");
   }
-  if (!result.reply.text.empty()) throw Error(result.reply.text);
+  const std::string& text = result.reply.text;
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  if (!text.empty()) throw Error(text.substr(0, end), text.substr(std::min(end + 1, text.size())));
   return result;
 }
 

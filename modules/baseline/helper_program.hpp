@@ -27,7 +27,7 @@ struct HelperResult {
 std::filesystem::path helper_file(const std::string& name);
 
 /// Runs the helper and waits for its reply. Throws Error when it is not there, when it ran into a limit (saying into
-/// which), crashed (with the last line that it printed) or says itself, in reply.text, why it could not; Cancelled when
+/// which), crashed (with the last line that it printed) or says itself why it could not; Cancelled when
 /// the run is to end.
 HelperResult run_helper(const HelperProgram& helper, const Exchange& request, Context& context);
 

@@ -29,7 +29,11 @@ std::size_t planes_to_use(const PlanePrimitives& planes, const Polyfit::Params& 
 Exchange request_of(const PlanePrimitives& planes, std::size_t used, const Polyfit::Params& params) {
   constexpr double share_of_solver = 0.97;  // the rest is for handing over
   Exchange request;
-  PolyfitSettings{params.fitting, params.coverage, params.complexity, params.time_limit * share_of_solver,
+  PolyfitSettings{params.fitting,
+                  params.coverage,
+                  params.complexity,
+                  params.time_limit,
+                  params.time_limit * share_of_solver,
                   params.on_limit == Polyfit::OnLimit::best}
       .write(request);
   const auto row = [](const Eigen::Vector3f& v) { return std::array<double, 3>{v.x(), v.y(), v.z()}; };

@@ -7,15 +7,16 @@ namespace atrium::baseline {
 /// as indices: the connected pieces of one plane.
 struct PolyfitSettings {
   double fitting = 0, coverage = 0, complexity = 0;
-  double seconds = 0;
+  double time_limit = 0;      ///< as the user set it
+  double solver_seconds = 0;  ///< from the start of the helper until the solver has to end
   bool accept_unproven = false;
 
   void write(Exchange& request) const {
-    request.numbers = {fitting, coverage, complexity, seconds, accept_unproven ? 1.0 : 0.0};
+    request.numbers = {fitting, coverage, complexity, time_limit, solver_seconds, accept_unproven ? 1.0 : 0.0};
   }
   static PolyfitSettings from(const Exchange& request) {
     const auto& n = request.numbers;
-    return {n.at(0), n.at(1), n.at(2), n.at(3), n.at(4) != 0};
+    return {n.at(0), n.at(1), n.at(2), n.at(3), n.at(4), n.at(5) != 0};
   }
 };
 

@@ -6,6 +6,8 @@
 
 #include <map>
 #include <numeric>
+#include <sstream>
+#include <string>
 #include <tuple>
 
 #include "cbc_program.hpp"
@@ -69,19 +71,21 @@ PlanarPieces pieces_of(const Surface& surface) {
   return pieces;
 }
 
-std::string failure(const Reconstruction& reconstruction) {
+std::string failure(const Reconstruction& reconstruction, double seconds) {
   if (!cbc_report.out_of_time) return reconstruction.error_message();
-  return "the solver did not find the best surface within the time limit, of a program of " +
-         std::to_string(cbc_report.variables) + " variables and " + std::to_string(cbc_report.constraints) +
-         " constraints";
+  std::ostringstream text;
+  text << "the best surface was not proven within the time limit of " << seconds << " s: a program of "
+       << cbc_report.variables << " variables and " << cbc_report.constraints << " constraints\n"
+       << "raise 'time_limit', give it fewer planes ('max_planes'), or take the best surface so far ('on_limit: best')";
+  return text.str();
 }
 
 }  // namespace
 
 Exchange computed(const Exchange& request) {
   const auto settings = PolyfitSettings::from(request);
-  cbc_settings.deadline =
-      std::chrono::steady_clock::now() + std::chrono::microseconds(static_cast<std::int64_t>(settings.seconds * 1e6));
+  cbc_settings.deadline = std::chrono::steady_clock::now() +
+                          std::chrono::microseconds(static_cast<std::int64_t>(settings.solver_seconds * 1e6));
   cbc_settings.accept_unproven = settings.accept_unproven;
   const auto points = points_of(request);
   Reconstruction reconstruction(points, CGAL::Nth_of_tuple_property_map<0, PointOfPlane>(),
@@ -92,7 +96,7 @@ Exchange computed(const Exchange& request) {
   Surface surface;
   Exchange reply;
   if (!reconstruction.reconstruct<CbcProgram>(surface, settings.fitting, settings.coverage, settings.complexity)) {
-    reply.text = failure(reconstruction);
+    reply.text = failure(reconstruction, settings.time_limit);
     return reply;
   }
   const MergedRegions merged = merge_regions(pieces_of(surface));
