@@ -226,7 +226,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"units", "random: {samples: 2, of: {second.value: {uniform: [1 cm, 1 m]}}}\n",
                 "has bounds in different units"},
         Mistake{"base", "grid: {}\n", "'grid' must be a mapping that is not empty"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& mistake) { return mistake.param.name; });
 
 TEST_F(Sweep, AMetricThatNoVariantHasIsAnError) {
   sweep("metrics: {sum: number.nothing}\n");
