@@ -124,7 +124,7 @@ double wait_for(Process& process, const HelperProgram& helper, Context& context)
     if (process.ended()) return seconds;
     context.check_cancelled();
     if (seconds > helper.seconds)
-      throw Error(fmt::format("{} was stopped at its time limit of {} s", helper.name, helper.seconds),
+      throw Error(fmt::format("{} was stopped after {} s, its time limit", helper.name, helper.seconds),
                   "raise 'time_limit', or give it fewer planes");
     if (process.resident_mebibytes() > helper.mebibytes)
       throw Error(fmt::format("{} was stopped at its memory limit of {} MiB, after {:.1f} s", helper.name,

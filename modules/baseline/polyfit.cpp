@@ -66,7 +66,8 @@ Polyfit::Out Polyfit::run(const In& in, const Params& params, Context& context) 
   helper.lacks =
       "it is built on Debian with: apt-get install libcgal-dev coinor-libcbc-dev; cmake -B build -DATRIUM_CGAL=ON "
       "(CGAL's reconstruction is under the GNU GPL)";
-  helper.seconds = params.time_limit;
+  // The solver looks at its clock between the steps of its work.
+  helper.seconds = params.on_limit == OnLimit::best ? 2 * params.time_limit : params.time_limit;
   helper.mebibytes = params.memory_limit;
   const HelperResult result = run_helper(helper, request_of(*in.planes, used, params), context);
 

@@ -64,7 +64,8 @@ struct Polyfit {
       param(&Params::memory_limit, "memory_limit", count, within(64, 1e7), "Resident memory of the helper, in MiB."),
       param(&Params::on_limit, "on_limit", {{"fail", OnLimit::fail}, {"best", OnLimit::best}},
             "When the time ends before the best surface is proven: fail, or take the best one so far with a warning "
-            "(which surface that is depends on the machine). Memory always fails.")};
+            "(which surface that is depends on the machine; the solver looks at its clock between the steps of its "
+            "work, so this may take up to twice the limit, and fails then). Memory always fails.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

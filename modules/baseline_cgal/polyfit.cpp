@@ -71,12 +71,14 @@ PlanarPieces pieces_of(const Surface& surface) {
   return pieces;
 }
 
-std::string failure(const Reconstruction& reconstruction, double seconds) {
+std::string failure(const Reconstruction& reconstruction, const PolyfitSettings& settings) {
   if (!cbc_report.out_of_time) return reconstruction.error_message();
   std::ostringstream text;
-  text << "the best surface was not proven within the time limit of " << seconds << " s: a program of "
-       << cbc_report.variables << " variables and " << cbc_report.constraints << " constraints\n"
-       << "raise 'time_limit', give it fewer planes ('max_planes'), or take the best surface so far ('on_limit: best')";
+  text << (settings.accept_unproven ? "no surface was found" : "the best surface was not proven")
+       << " within the time limit of " << settings.time_limit << " s: a program of " << cbc_report.variables
+       << " variables and " << cbc_report.constraints << " constraints\n"
+       << "raise 'time_limit' or give it fewer planes ('max_planes')"
+       << (settings.accept_unproven ? "" : "; 'on_limit: best' takes the best surface so far, if there is one");
   return text.str();
 }
 
@@ -96,7 +98,7 @@ Exchange computed(const Exchange& request) {
   Surface surface;
   Exchange reply;
   if (!reconstruction.reconstruct<CbcProgram>(surface, settings.fitting, settings.coverage, settings.complexity)) {
-    reply.text = failure(reconstruction, settings.time_limit);
+    reply.text = failure(reconstruction, settings);
     return reply;
   }
   const MergedRegions merged = merge_regions(pieces_of(surface));

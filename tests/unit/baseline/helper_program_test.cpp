@@ -83,7 +83,7 @@ TEST(HelperProgram, SaysWhyThereIsNoReply) {
   EXPECT_TRUE(contains(problem(Script("echo this; echo went wrong >&2; exit 7").helper()), "went wrong"));
   EXPECT_TRUE(contains(problem(Script("kill -SEGV $$").helper()), "Segmentation fault"));
   EXPECT_TRUE(contains(problem(Script("echo nonsense").helper()), "no reply that can be read"));
-  EXPECT_TRUE(contains(problem(Script("exec sleep 60").helper(0.05)), "time limit of 0.05 s"));
+  EXPECT_TRUE(contains(problem(Script("exec sleep 60").helper(0.05)), "stopped after 0.05 s, its time limit"));
   EXPECT_TRUE(contains(problem(Script("exec sleep 60").helper(60, 0.001)), "memory limit of 0.001 MiB"));
 }
 

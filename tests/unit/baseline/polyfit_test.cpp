@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "modules/baseline/helper_program.hpp"
 #include "tests/support/flat_cloud.hpp"
+#include "tests/unit/baseline/closed_surface.hpp"
 
 namespace atrium::baseline {
 namespace {
@@ -92,25 +92,6 @@ PlanePrimitives planes_of(const Room& room) {
     planes.primitives.push_back(std::move(whole));
   }
   return planes;
-}
-
-/// Six times the volume's content, positive when triangles are counter-clockwise seen from outside.
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    sum += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c])) / 6;
-  return sum;
-}
-
-/// Every edge has two triangles, which run along it in opposite directions.
-bool is_closed(const Mesh& mesh) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-  for (const auto& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) ++edges[{t[k], t[(k + 1) % 3]}];
-  return !edges.empty() && std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
-    const auto back = edges.find({edge.first.second, edge.first.first});
-    return edge.second == 1 && back != edges.end() && back->second == 1;
-  });
 }
 
 double value(const Metrics& metrics, const std::string& name) {
