@@ -59,7 +59,9 @@ Mesh with_columns(const Mesh& source, std::vector<std::array<std::uint32_t, 3>> 
   Mesh mesh;
   mesh.origin = source.origin;
   mesh.triangles = std::move(corners);
-  mesh.classes = taken(source.classes, sources);
+  const bool told = std::any_of(source.classes.begin(), source.classes.end(),
+                                [](SurfaceClass c) { return c != SurfaceClass::object; });
+  if (told) mesh.classes = taken(source.classes, sources);
   mesh.storeys = taken(source.storeys, sources);
   mesh.primitives = taken(source.primitives, sources);
   return mesh;
@@ -78,6 +80,20 @@ void place_used_vertices(const std::vector<Eigen::Vector3d>& places, const std::
   }
   for (auto& t : mesh.triangles)
     for (auto& corner : t) corner = index[corner];
+}
+
+Mesh without_repeated_corners(const Mesh& mesh) {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::uint32_t> sources;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& c = mesh.triangles[t];
+    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
+    triangles.push_back(c);
+    sources.push_back(t);
+  }
+  Mesh result = with_columns(mesh, std::move(triangles), sources);
+  place_used_vertices(mesh.vertices, mesh.colours, result);
+  return result;
 }
 
 }  // namespace atrium::baseline

@@ -19,21 +19,6 @@ namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-// Triangles without a repeated corner, and the vertices that they use.
-Mesh cleaned(const Mesh& mesh) {
-  std::vector<Corners> triangles;
-  std::vector<std::uint32_t> sources;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& c = mesh.triangles[t];
-    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
-    triangles.push_back(c);
-    sources.push_back(t);
-  }
-  Mesh result = with_columns(mesh, std::move(triangles), sources);
-  place_used_vertices(mesh.vertices, mesh.colours, result);
-  return result;
-}
-
 // About `centre`, so that VTK's products keep their digits.
 vtkNew<vtkPolyData> to_vtk(const Mesh& mesh, const Eigen::Vector3d& centre) {
   vtkNew<vtkPoints> points;
@@ -112,7 +97,7 @@ Quadric::Out Quadric::run(const In& in, const Params& params, Context& context) 
   check_mesh(*in.mesh);
   const std::size_t target = target_triangles(in.mesh->triangles.size(), params.triangles, params.ratio);
   Out out;
-  out.mesh = cleaned(*in.mesh);
+  out.mesh = without_repeated_corners(*in.mesh);
   if (out.mesh.triangles.size() <= target) return out;
   const Mesh source = std::move(out.mesh);
   out.mesh = decimated(source, target, params.volume_preservation, context);

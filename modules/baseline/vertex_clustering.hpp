@@ -20,9 +20,10 @@ namespace atrium::baseline {
 /// no more triangles (to a hundredth of the target, or to 10⁻⁴ of the size). The result need not be manifold or closed:
 /// what is thinner than a cube collapses, as with every clustering.
 ///
-/// Colours are the mean of the corners'; a triangle keeps its class, storey and primitive. An empty mesh stays empty.
-/// Errors: neither cell_size, triangles nor ratio given; a mesh with vertices that are not finite or corners that do
-/// not exist.
+/// Colours are the mean of the corners'; a triangle keeps its class, storey and primitive. Where all triangles are
+/// objects, as in a reconstruction of a whole scan, there are no classes: nobody has told structure from objects. An
+/// empty mesh stays empty. Errors: neither cell_size, triangles nor ratio given; a mesh with vertices that are not
+/// finite or corners that do not exist.
 struct VertexClustering {
   static constexpr std::string_view type = "baseline.vertex_clustering";
   static constexpr std::string_view summary = "Decimates a mesh by vertex clustering (CD).";

@@ -84,6 +84,14 @@ TEST(VertexClustering, KeepsColumnsAndOrigin) {
   EXPECT_EQ(mesh.classes, std::vector<SurfaceClass>(mesh.triangles.size(), SurfaceClass::floor));
 }
 
+TEST(VertexClustering, ClassesThatAreAllObjectsAreLeftOut) {
+  Mesh cube = box(Vector3d(1, 1, 1), 4);
+  cube.classes.assign(cube.triangles.size(), SurfaceClass::object);
+  EXPECT_TRUE(clustered(cube, {0.4, 0, 0}).mesh.classes.empty());
+  cube.classes.back() = SurfaceClass::wall;
+  EXPECT_FALSE(clustered(cube, {0.4, 0, 0}).mesh.classes.empty());
+}
+
 TEST(VertexClustering, SameBytesWithAnyNumberOfThreads) {
   const Mesh ball = sphere(Vector3d::Zero(), 1, 60);
   EXPECT_TRUE(same_with_any_threads([&] { return content_hash(clustered(ball, {0, 900, 0}).mesh); }));
