@@ -84,8 +84,13 @@ void choose_primitive(Region& region, const Mesh& mesh, const PlanePrimitives& p
   }
 }
 
-/// Regions and whether each is to be turned, part by part: what is connected over edges of two regions has one front.
-std::vector<bool> turned(const std::vector<Region>& regions, const Mesh& mesh) {
+struct Link {
+  std::size_t region;
+  bool same;  ///< both are seen from the same side of the surface as they are
+};
+
+/// Which regions each one meets at edges that no third one has.
+std::vector<std::vector<Link>> links_of(const std::vector<Region>& regions, const Mesh& mesh) {
   struct Side {
     std::size_t region;
     bool forward;
@@ -98,10 +103,6 @@ std::vector<bool> turned(const std::vector<Region>& regions, const Mesh& mesh) {
         const std::uint32_t b = mesh.triangles[t][(k + 1) % 3];
         edges[std::minmax(a, b)].push_back({r, a < b});
       }
-  struct Link {
-    std::size_t region;
-    bool same;  ///< both are seen from the same side of the surface as they are
-  };
   std::vector<std::vector<Link>> links(regions.size());
   for (const auto& [edge, sides] : edges) {
     if (sides.size() != 2 || sides[0].region == sides[1].region) continue;
@@ -109,27 +110,33 @@ std::vector<bool> turned(const std::vector<Region>& regions, const Mesh& mesh) {
     links[sides[0].region].push_back({sides[1].region, same});
     links[sides[1].region].push_back({sides[0].region, same});
   }
-  std::vector<int> turn(regions.size(), -1);
+  return links;
+}
+
+/// Whether each region is to be turned, part by part: what is linked has one front.
+std::vector<bool> turned(const std::vector<Region>& regions, const Mesh& mesh) {
+  const auto links = links_of(regions, mesh);
+  std::vector<bool> reached(regions.size());
+  std::vector<bool> turn(regions.size());
   for (std::size_t seed = 0; seed < regions.size(); ++seed) {
-    if (turn[seed] != -1) continue;
+    if (reached[seed]) continue;
     std::vector<std::size_t> part{seed};
-    turn[seed] = 0;
+    reached[seed] = true;
     double votes = 0;
     for (std::size_t k = 0; k < part.size(); ++k) {
       const std::size_t r = part[k];
-      votes += turn[r] == 0 ? regions[r].votes : -regions[r].votes;
+      votes += turn[r] ? -regions[r].votes : regions[r].votes;
       for (const Link& link : links[r]) {
-        if (turn[link.region] != -1) continue;
-        turn[link.region] = link.same ? turn[r] : 1 - turn[r];
+        if (reached[link.region]) continue;
+        reached[link.region] = true;
+        turn[link.region] = link.same == turn[r];
         part.push_back(link.region);
       }
     }
     if (votes < 0)
-      for (const std::size_t r : part) turn[r] = 1 - turn[r];
+      for (const std::size_t r : part) turn[r] = !turn[r];
   }
-  std::vector<bool> result(regions.size());
-  for (std::size_t r = 0; r < regions.size(); ++r) result[r] = turn[r] == 1;
-  return result;
+  return turn;
 }
 
 }  // namespace
