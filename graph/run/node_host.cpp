@@ -8,8 +8,10 @@ namespace {
 Artefact describe(const std::filesystem::path& file, const std::filesystem::path& folder) {
   Artefact artefact;
   const auto absolute = std::filesystem::absolute(file).lexically_normal();
-  const auto relative = absolute.lexically_relative(std::filesystem::absolute(folder).lexically_normal());
-  const bool inside = !folder.empty() && !relative.empty() && *relative.begin() != "..";
+  const auto relative = folder.empty()
+                            ? std::filesystem::path()
+                            : absolute.lexically_relative(std::filesystem::absolute(folder).lexically_normal());
+  const bool inside = !relative.empty() && *relative.begin() != "..";
   artefact.path = (inside ? relative : absolute).generic_string();
   std::error_code gone;
   const auto size = std::filesystem::file_size(absolute, gone);

@@ -235,5 +235,22 @@ TEST_F(Sweep, AMetricThatNoVariantHasIsAnError) {
   EXPECT_NE(result.err.find("no variant has the metric 'sum'"), std::string::npos) << result.err;
 }
 
+TEST_F(Sweep, PicturesOfAllVariantsStandOnOneSheet) {
+  write_text(folder / "drawn.yaml", R"(atrium: 1
+nodes:
+  room: {type: synth.room}
+  scan: {type: synth.scan, in: {scene: room.scene}, params: {points: 20000}}
+  look: {type: render.snapshot, in: {cloud: scan.cloud}, params: {path: look.png, width: 160, height: 120}}
+outputs: {cloud: scan.cloud}
+)");
+  write_text(
+      folder / "s.yaml",
+      "atrium: 1\nsweep: drawn.yaml\nlist: {white: {}, black: {look.background: black}, broken: {scan.points: 1}}\n"
+      "pictures: {sheet.png: {picture: look.png, columns: 2, cell_width: 100}}\n");
+  const auto result = atrium({"run", "s.yaml", "--out", "out", "--quiet"});
+  EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 4) << result.err;
+  EXPECT_GT(read_text(folder / "out/sheet.png").size(), 1000U);
+}
+
 }  // namespace
 }  // namespace atrium::test

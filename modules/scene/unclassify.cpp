@@ -1,0 +1,13 @@
+#include "modules/scene/unclassify.hpp"
+
+namespace atrium::scene {
+
+Unclassify::Out Unclassify::run(const In& in, const Params& /*params*/, Context& /*context*/) {
+  Out out{*in.mesh};
+  out.mesh.classes.clear();
+  out.mesh.storeys.clear();
+  out.mesh.primitives.clear();
+  return out;
+}
+
+}  // namespace atrium::scene

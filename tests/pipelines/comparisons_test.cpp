@@ -1,0 +1,59 @@
+// The comparisons with other methods: every file is one that runs, and the table is complete.
+#include <gtest/gtest.h>
+
+#include "tests/pipelines/steps.hpp"
+
+namespace atrium::test {
+namespace {
+
+std::vector<std::string> files_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(source / "pipelines/comparisons" / folder))
+    if (entry.path().extension() == ".yaml") names.push_back((folder / entry.path().filename()).string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+TEST(Comparisons, EveryMethodFitsEveryScene) {
+  for (const auto& scene : files_in("scenes")) {
+    if (scene.find("quest") != std::string::npos && !fs::exists(scans)) continue;
+    for (const auto& method : files_in("methods")) {
+      if (method == "methods/points.yaml") continue;  // a part of methods
+      const auto result =
+          atrium({"check", "pipelines/comparisons/base.yaml", "-s", "scene.pipeline=pipelines/comparisons/" + scene,
+                  "-s", "method.pipeline=pipelines/comparisons/" + method});
+      EXPECT_EQ(result.exit_code, 0) << scene << " " << method << "\n" << result.err;
+    }
+  }
+}
+
+TEST(Comparisons, EveryTableCanBePlanned) {
+  for (const auto& table : files_in("")) {
+    if (table == "base.yaml") continue;
+    if (table.find("headset") != std::string::npos && !fs::exists(scans)) continue;
+    const auto result = atrium({"sweep", "plan", "pipelines/comparisons/" + table, "--json"});
+    ASSERT_EQ(result.exit_code, 0) << table << "\n" << result.err;
+    EXPECT_GE(nlohmann::json::parse(result.out).at("variants").size(), 6U) << table;
+  }
+}
+
+TEST(Comparisons, ThePapersMethodIsScoredOnASimulatedRoom) {
+  const TemporaryFolder folder;
+  write_text(folder / "s.yaml", "atrium: 1\nsweep: " + (source / "pipelines/comparisons/base.yaml").string() +
+                                    "\nset: {scene.points: 60000, method/paper/objects.type: object.none}\n"
+                                    "scenes: {room: {scene.pipeline: " +
+                                    (source / "pipelines/comparisons/scenes/room.yaml").string() +
+                                    "}}\nmetrics: {completeness: quality.structure.b50mm.completeness, "
+                                    "components: validity.validity.components.all}\n"
+                                    "pictures: {sheet.png: picture.png}\n");
+  const auto result =
+      atrium({"sweep", "run", (folder / "s.yaml").string(), "--out", (folder / "out").string(), "--quiet", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto row = nlohmann::json::parse(result.out).at("variants").at(0);
+  EXPECT_GT(std::stod(row.at("completeness").get<std::string>()), 0.9);
+  EXPECT_GE(std::stod(row.at("components").get<std::string>()), 8);
+  EXPECT_TRUE(fs::exists(folder / "out/sheet.png"));
+}
+
+}  // namespace
+}  // namespace atrium::test
