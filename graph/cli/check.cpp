@@ -56,6 +56,10 @@ std::vector<Override> to_overrides(const std::vector<std::string>& texts) {
   return overrides;
 }
 
+std::string counted(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 void print_findings(const LoadResult& result) {
   for (const auto& warning : result.warnings) fmt::print(stderr, "{}\n", to_string(warning));
   for (const auto& error : result.errors) fmt::print(stderr, "{}\n", to_string(error));

@@ -32,10 +32,6 @@ fs::path new_folder(const fs::path& file) {
   return folder;
 }
 
-std::string counted(std::size_t count, std::string_view what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 void print_summary(const RunResult& result, const fs::path& folder) {
   std::size_t of_status[4] = {};
   for (const auto& node : result.nodes) ++of_status[static_cast<std::size_t>(node.status)];

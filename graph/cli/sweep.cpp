@@ -1,4 +1,4 @@
-// atrium sweep plan|run|table FILE: many variants of a pipeline as one graph.
+// atrium sweep plan|run FILE: many variants of a pipeline as one graph.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -51,10 +51,6 @@ Loaded load(const Options& options, Registry& registry) {
 
 fs::path folder_of(const Options& options) {
   return options.out.empty() ? fs::path("runs") / fs::path(options.file).stem() : fs::path(options.out);
-}
-
-std::string counted(std::size_t count, std::string_view what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 void print_notes(const SweepPlan& plan) {

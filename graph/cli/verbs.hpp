@@ -22,6 +22,8 @@ void add_schema(CLI::App& app, int& exit_code);
 /// The option -s of verbs that read a pipeline.
 void add_settings(CLI::App& verb, std::vector<std::string>& settings);
 std::vector<Override> to_overrides(const std::vector<std::string>& texts);
+/// "1 node", "2 nodes".
+std::string counted(std::size_t count, std::string_view what);
 /// Warnings and errors, on stderr.
 void print_findings(const LoadResult& result);
 

@@ -1,6 +1,7 @@
 #include "graph/run/node_host.hpp"
 
 #include <algorithm>
+#include <fstream>
 
 namespace atrium {
 namespace {
@@ -33,6 +34,8 @@ void NodeHost::wrote(const std::filesystem::path& file) {
   if (is_png(file)) stamp_png(file, stamp_);
   const std::lock_guard lock(mutex_);
   files_.push_back(file);
+  if (!folder_.empty() && subfolder_.empty())
+    std::ofstream(folder_ / written_journal, std::ios::app) << describe(file, folder_).path + "\n";
 }
 
 void NodeHost::helped(double cpu_seconds) {

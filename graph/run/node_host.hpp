@@ -10,6 +10,9 @@
 
 namespace atrium {
 
+/// In the folder of a run that is under way: the files that its nodes have written so far, one in a line.
+inline constexpr std::string_view written_journal = ".written";
+
 /// What a node's Context is connected to during a run.
 class NodeHost final : public ContextHost {
  public:

@@ -12,18 +12,13 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/run/manifest.hpp"
+#include "graph/run/node_host.hpp"
 #include "graph/run/trace.hpp"
 
 namespace atrium {
 namespace {
 
 namespace fs = std::filesystem;
-
-void write_file(const fs::path& target, const std::string& text) {
-  AtomicFile file(target);
-  file.write(text);
-  file.commit();
-}
 
 // Null unless the folder holds a run of ours.
 nlohmann::json read_manifest(const fs::path& folder) {
@@ -47,7 +42,27 @@ std::set<fs::path> files_read(const Pipeline& pipeline) {
   return files;
 }
 
+/// What an earlier run wrote: the files that its manifest lists, with their sizes.
+std::vector<std::pair<std::string, std::uint64_t>> written_by(const nlohmann::json& manifest) {
+  std::vector<std::pair<std::string, std::uint64_t>> files;
+  try {
+    for (const auto& node : manifest.value("nodes", nlohmann::json::array()))
+      for (const auto& artefact : node.value("artefacts", nlohmann::json::array()))
+        files.emplace_back(artefact.value("path", ""), artefact.value("bytes", 0U));
+  } catch (const nlohmann::json::exception&) {
+    throw FolderError("the manifest.json of an earlier run cannot be understood",
+                      "choose another folder with --out, or empty it");
+  }
+  return files;
+}
+
 }  // namespace
+
+void write_file(const fs::path& target, const std::string& text) {
+  AtomicFile file(target);
+  file.write(text);
+  file.commit();
+}
 
 RunFolder::RunFolder(fs::path folder, const Pipeline& pipeline)
     : folder_(std::move(folder)),
@@ -79,6 +94,8 @@ void RunFolder::lock() {
 
 void RunFolder::remove_earlier_run() {
   if (fs::is_empty(folder_)) return;
+  if (fs::exists(folder_ / sweep_mark))
+    throw FolderError(folder_.string() + " is the folder of a sweep", "choose another folder with --out");
   const auto manifest = read_manifest(folder_);
   if (manifest.is_null())
     throw FolderError(folder_.string() + " is not empty and is not the folder of a run",
@@ -93,14 +110,17 @@ void RunFolder::remove_earlier_run() {
   const auto remove_unless_read = [&](const fs::path& file) {
     if (fs::is_regular_file(file, ignored) && !needed.contains(fs::weakly_canonical(file))) fs::remove(file, ignored);
   };
-  for (const auto& node : manifest.value("nodes", nlohmann::json::array()))
-    for (const auto& artefact : node.value("artefacts", nlohmann::json::array())) {
-      const fs::path file = place(artefact.value("path", ""));
-      if (fs::file_size(file, ignored) == artefact.value("bytes", 0U)) remove_unless_read(file);
-    }
-  // A run that was killed lists what it was going to write, and may have left unfinished files.
-  for (const auto& planned : manifest.value("planned", nlohmann::json::array()))
-    remove_unless_read(place(planned.get<std::string>()));
+  for (const auto& [path, bytes] : written_by(manifest)) {
+    const fs::path file = place(path);
+    if (fs::file_size(file, ignored) == bytes) remove_unless_read(file);
+  }
+  // A run that was killed lists what it was going to write and what it has written, and may have left unfinished files.
+  if (const auto planned = manifest.find("planned"); planned != manifest.end() && planned->is_array())
+    for (const auto& path : *planned)
+      if (path.is_string()) remove_unless_read(place(path.get<std::string>()));
+  std::ifstream journal(folder_ / written_journal);
+  for (std::string path; std::getline(journal, path);) remove_unless_read(place(path));
+  fs::remove(folder_ / written_journal, ignored);
   std::vector<fs::path> unfinished;
   for (const auto& entry : fs::recursive_directory_iterator(folder_, ignored))
     if (entry.path().extension() == ".part" && entry.path().filename().string().front() == '.')
@@ -112,6 +132,8 @@ void RunFolder::remove_earlier_run() {
 void RunFolder::finish(const RunResult& result) {
   write_file(folder_ / "trace.json", trace_json(result));
   write_file(folder_ / "manifest.json", manifest_json(pipeline_, result, started_));
+  std::error_code ignored;
+  std::filesystem::remove(folder_ / written_journal, ignored);
 }
 
 }  // namespace atrium

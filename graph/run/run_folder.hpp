@@ -7,10 +7,16 @@
 
 namespace atrium {
 
+/// Writes a whole file: beside, then renamed. Throws Error.
+void write_file(const std::filesystem::path& target, const std::string& text);
+
+/// The file that marks the folder of a sweep.
+inline constexpr std::string_view sweep_mark = "sweep.json";
+
 /// The folder of one run. It is refused if it holds anything but an earlier run, whose files are removed first (those
 /// that its manifest lists and that still have the size listed, those that it planned to write when it was killed, and
 /// unfinished ones; unless this pipeline reads them): what is in the folder
-/// afterwards is of this run. Locked against a second run at the same time.
+/// afterwards is of this run. The folder of a sweep is refused too. Locked against a second run at the same time.
 class RunFolder {
  public:
   /// Makes the folder; writes resolved.yaml and a manifest.json that says that the run is not finished. Throws

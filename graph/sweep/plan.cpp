@@ -40,6 +40,7 @@ class Planner {
       : sweep_(sweep), given_(given), registry_(registry) {}
 
   SweepLoad plan() {
+    check_settings();
     check_exclude();
     if (const std::size_t combinations = count(); combinations > most_variants)
       findings_.error({&sweep_.source, {}},
@@ -68,6 +69,23 @@ class Planner {
       choices[a] = 0;
     }
     return false;
+  }
+
+  /// What the table names by its value must be what ran.
+  void check_settings() {
+    for (const auto& axis : sweep_.axes) {
+      if (axis.name == "scene" || axis.name == "variant" || axis.name == "ablation") continue;
+      for (const auto& override_ : given_) {
+        const auto sets = [&](const SweepSetting& s) { return override_.text.starts_with(s.target + "="); };
+        const auto& choices = axis.choices;
+        if (std::any_of(choices.begin(), choices.end(), [&](const SweepChoice& choice) {
+              return std::any_of(choice.settings.begin(), choice.settings.end(), sets);
+            }))
+          findings_.error({&sweep_.source, choices.front().place},
+                          fmt::format("'{}' is varied by the sweep and cannot be set", axis.name),
+                          "change the sweep file, or leave the setting out", {"set by " + override_.origin});
+      }
+    }
   }
 
   void check_exclude() {
@@ -130,7 +148,9 @@ class Planner {
         if (std::find(outputs.begin(), outputs.end(), metric.output) != outputs.end()) continue;
         const std::string hint = findings_.suggest(metric.output, outputs);
         findings_.error(where, fmt::format("{} has no output '{}'", sweep_.base_name, metric.output),
-                        hint.empty() ? "its outputs: " + join_words(outputs, 40) : hint);
+                        !hint.empty()     ? hint
+                        : outputs.empty() ? "list what is to be shown under its `outputs:`"
+                                          : "its outputs: " + join_words(outputs, 40));
       } else if (!metric.node.empty() &&
                  std::none_of(pipeline.nodes.begin(), pipeline.nodes.end(), [&](const PipelineNode& node) {
                    return node.path == metric.node || node.path.starts_with(metric.node + "/");

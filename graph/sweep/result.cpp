@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <xxhash.h>
 
+#include <cmath>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 namespace atrium {
@@ -19,6 +22,19 @@ Json fingerprint(const std::string& path) {
   return {{"path", path},
           {"bytes", static_cast<std::uint64_t>(info.st_size)},
           {"changed", fmt::format("{}.{:09}", info.st_mtim.tv_sec, info.st_mtim.tv_nsec)}};
+}
+
+/// "" if it cannot be read.
+std::string hash_of_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return {};
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
+  XXH3_128bits_reset(state.get());
+  std::vector<char> buffer(1U << 20U);
+  while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || file.gcount() > 0)
+    XXH3_128bits_update(state.get(), buffer.data(), static_cast<std::size_t>(file.gcount()));
+  const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
 Json inputs_of(const SweepPlan& plan, const SweepVariant& variant) {
@@ -81,8 +97,8 @@ VariantResult read_result(const Json& json) {
 
 }  // namespace
 
-std::string result_json(const SweepFile& sweep, const SweepPlan& plan, const SweepVariant& variant,
-                        const VariantResult& result, const std::string& build) {
+std::string result_json(const fs::path& folder, const SweepFile& sweep, const SweepPlan& plan,
+                        const SweepVariant& variant, const VariantResult& result, const std::string& build) {
   Json json{{"atrium", framework_version()},
             {"build", build},
             {"id", variant.id},
@@ -101,7 +117,8 @@ std::string result_json(const SweepFile& sweep, const SweepPlan& plan, const Swe
   }
   json["artefacts"] = Json::array();
   for (const auto& artefact : result.artefacts)
-    json["artefacts"].push_back({{"path", artefact.path}, {"bytes", artefact.bytes}});
+    json["artefacts"].push_back(
+        {{"path", artefact.path}, {"bytes", artefact.bytes}, {"hash", hash_of_file(folder / artefact.path)}});
   json["nodes"] = Json::array();
   for (const auto& node : result.nodes)
     json["nodes"].push_back({{"node", node.path},
@@ -122,10 +139,9 @@ std::optional<VariantResult> reusable_result(const fs::path& folder, const Sweep
     if (json.at("build") != build || json.at("status") != "ok" || json.at("inputs") != inputs_of(plan, variant))
       return std::nullopt;
     VariantResult result = read_result(json);
-    for (const auto& artefact : result.artefacts) {
-      std::error_code gone;
-      if (fs::file_size(folder / artefact.path, gone) != artefact.bytes || gone) return std::nullopt;
-    }
+    for (const auto& artefact : json.at("artefacts"))
+      if (hash_of_file(folder / artefact.at("path").get<std::string>()) != artefact.at("hash").get<std::string>())
+        return std::nullopt;
     return result;
   } catch (const Json::exception&) {  // of another version, or not ours
     return std::nullopt;

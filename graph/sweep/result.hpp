@@ -30,12 +30,13 @@ struct VariantResult {
   bool reused = false;              ///< it was there already, from an earlier run of the sweep
 };
 
-/// The file `result.json` of a variant: what became of it, and what it depended on (Atrium's build, the input files).
-std::string result_json(const SweepFile& sweep, const SweepPlan& plan, const SweepVariant& variant,
-                        const VariantResult& result, const std::string& build);
+/// The file `result.json` of a variant: what became of it, what it depended on (Atrium's build, the input files), and
+/// the files in its folder with the hashes of their contents.
+std::string result_json(const std::filesystem::path& folder, const SweepFile& sweep, const SweepPlan& plan,
+                        const SweepVariant& variant, const VariantResult& result, const std::string& build);
 
 /// Reads it back; nothing unless the variant was done by the same build, its input files are the same (size and time of
-/// change) and the files that it wrote are still there.
+/// change) and the files that it wrote are still there as they were.
 std::optional<VariantResult> reusable_result(const std::filesystem::path& folder, const SweepPlan& plan,
                                              const SweepVariant& variant, const std::string& build);
 

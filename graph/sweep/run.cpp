@@ -1,17 +1,21 @@
 #include "graph/sweep/run.hpp"
 
 #include <fcntl.h>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <ctime>
 #include <map>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <unordered_map>
 
 #include "graph/run/clocks.hpp"
 #include "graph/run/manifest.hpp"
+#include "graph/run/run_folder.hpp"
 #include "graph/run/scheduler.hpp"
 #include "graph/run/trace.hpp"
 
@@ -20,21 +24,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_file(const fs::path& target, const std::string& text) {
-  AtomicFile file(target);
-  file.write(text);
-  file.commit();
-}
-
-/// The sweep's folder, locked against a second run at the same time.
+/// The sweep's folder, locked against a second run at the same time. Refused if it holds anything but a sweep.
 class SweepFolder {
  public:
-  explicit SweepFolder(const fs::path& folder) {
+  SweepFolder(const fs::path& folder, const SweepFile& sweep) {
     std::error_code error;
-    fs::create_directories(folder / "variants", error);
+    fs::create_directories(folder, error);
     if (error) throw FolderError("cannot make the folder " + folder.string() + ": " + error.message());
+    if (!fs::is_empty(folder, error) && !fs::exists(folder / sweep_mark))
+      throw FolderError(folder.string() + " is not empty and is not the folder of a sweep",
+                        "choose another folder with --out, or empty it");
     lock_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+    if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) == 0) {
+      write_file(folder / sweep_mark,
+                 nlohmann::ordered_json{{"atrium", framework_version()}, {"sweep", sweep.path.string()}}.dump(
+                     1, ' ', false, nlohmann::json::error_handler_t::replace) +
+                     "\n");
+      return;
+    }
     if (lock_ >= 0) ::close(lock_);
     throw FolderError("another sweep is writing into " + folder.string(), "choose another folder with --out");
   }
@@ -131,7 +138,8 @@ class Recorder final : public ProgressSink {
     }
     if (result.status == NodeStatus::failed && ++failures_ >= options_.max_failures) stop_ = true;
     if (result.status == NodeStatus::cancelled) return;  // it is done anew next time
-    write_file(folder_of(variant) / "result.json", result_json(sweep_, plan_, variant, result, build_));
+    write_file(folder_of(variant) / "result.json",
+               result_json(folder_of(variant), sweep_, plan_, variant, result, build_));
   }
 
   void add_node(const SweepVariant& variant, std::size_t n, VariantResult& result) {
@@ -198,7 +206,8 @@ SweepResult run_sweep(const SweepFile& sweep, const SweepPlan& plan, const std::
                       const SweepOptions& given, ProgressSink& progress) {
   SweepOptions options = given;
   options.out = fs::absolute(given.out).lexically_normal();
-  const SweepFolder folder(options.out);
+  const SweepFolder folder(options.out, sweep);
+  const std::string started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   Recorder recorder(sweep, plan, build, options, progress);
   const Pipeline pipeline = part_of(plan.merged, recorder.prepare());
   SweepResult result;
@@ -220,7 +229,7 @@ SweepResult run_sweep(const SweepFile& sweep, const SweepPlan& plan, const std::
     result.peak_memory = run.peak_memory;
     result.cancelled = run.cancelled;
     write_file(options.out / "trace.json", trace_json(run));
-    write_file(options.out / "manifest.json", manifest_json(pipeline, run, ""));
+    write_file(options.out / "manifest.json", manifest_json(pipeline, run, started));
   }
   result.variants = recorder.take();
   write_file(options.out / "table.csv", as_csv(full_table(sweep, plan, result.variants)));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -73,9 +74,11 @@ std::string sample(const Distribution& distribution, std::uint64_t seed, std::st
   Random random(mix_seed(mix_seed(seed, XXH3_64bits(target.data(), target.size())), index));
   switch (distribution.kind) {
     case Distribution::Kind::uniform:
-      return fmt::format("{:.6g}{}", random.uniform(distribution.low, distribution.high), distribution.unit);
+      return fmt::format("{}{}", random.uniform(distribution.low, distribution.high), distribution.unit);
     case Distribution::Kind::loguniform:
-      return fmt::format("{:.6g}{}", std::exp(random.uniform(std::log(distribution.low), std::log(distribution.high))),
+      return fmt::format("{}{}",
+                         std::clamp(std::exp(random.uniform(std::log(distribution.low), std::log(distribution.high))),
+                                    distribution.low, distribution.high),
                          distribution.unit);
     case Distribution::Kind::integers: {
       const auto steps = static_cast<std::uint64_t>(distribution.high - distribution.low) + 1;

@@ -291,6 +291,9 @@ class Reader {
     for (const auto& entry : mapping(section, "write `SHEET.png: PICTURE.png` lines below it")) {
       SweepSheet sheet{entry.key, {}};
       sheet.place = entry.place;
+      if (entry.key.find('/') != std::string::npos || !entry.key.ends_with(".png") || entry.key.size() < 5)
+        error(entry.place, fmt::format("'{}' cannot be the file of a sheet", entry.key),
+              "a name that ends with .png; it is written into the sweep's folder");
       if (!entry.value.is_mapping()) {
         sheet.picture = scalar(entry);
       } else {

@@ -122,13 +122,15 @@ std::vector<Table::Column> metric_columns(const Numbers& numbers) {
   return columns;
 }
 
-/// Four significant digits, whole numbers whole, unless the file says how many decimals.
+/// Decimals that show four significant digits of a number; none of a whole one.
+int decimals_of(double number) {
+  if (number == 0 || !std::isfinite(number) || (std::abs(number) < 1e15 && number == std::trunc(number))) return 0;
+  return std::clamp(3 - static_cast<int>(std::floor(std::log10(std::abs(number)))), 0, 9);
+}
+
 std::string rounded(double number, const std::optional<int>& digits) {
   if (!std::isfinite(number)) return std::isnan(number) ? "nan" : number > 0 ? "inf" : "-inf";
-  if (digits) return fmt::format("{:.{}f}", number, *digits);
-  if (std::abs(number) < 1e15 && number == std::trunc(number)) return fmt::format("{:.0f}", number);
-  const int decimals = std::clamp(3 - static_cast<int>(std::floor(std::log10(std::abs(number)))), 0, 9);
-  return fmt::format("{:.{}f}", number, decimals);
+  return fmt::format("{:.{}f}", number, digits.value_or(decimals_of(number)));
 }
 
 std::string with_spread(const std::vector<double>& numbers, const std::optional<int>& digits) {
@@ -138,7 +140,8 @@ std::string with_spread(const std::vector<double>& numbers, const std::optional<
   double square = 0;
   for (const double number : numbers) square += (number - mean) * (number - mean);
   const double deviation = std::sqrt(square / static_cast<double>(numbers.size() - 1));
-  return rounded(mean, digits) + " ± " + rounded(deviation, digits ? digits : std::optional<int>());
+  const int decimals = digits.value_or(decimals_of(mean));
+  return rounded(mean, decimals) + " ± " + rounded(deviation, decimals);
 }
 
 std::string state_of(const VariantResult& result) {
@@ -147,6 +150,25 @@ std::string state_of(const VariantResult& result) {
 }
 
 bool varies(const SweepAxis& axis) { return axis.choices.size() > 1; }
+
+/// What an axis sets: of a random sample the table shows the values too.
+std::vector<std::string> drawn_by(const SweepAxis& axis) {
+  std::vector<std::string> targets;
+  if (axis.name == "sample" && !axis.choices.empty())
+    for (const auto& setting : axis.choices.front().settings) targets.push_back(setting.target);
+  return targets;
+}
+
+void add_columns(const SweepAxis& axis, Table& table) {
+  table.columns.push_back({axis.name});
+  for (auto& target : drawn_by(axis)) table.columns.push_back({std::move(target)});
+}
+
+void add_cells(const SweepAxis& axis, std::size_t choice, std::vector<std::string>& row) {
+  row.push_back(axis.choices[choice].label);
+  if (drawn_by(axis).empty()) return;
+  for (const auto& setting : axis.choices[choice].settings) row.push_back(setting.value);
+}
 
 /// Variants that differ in their seed only, in the order of the first of each.
 std::vector<std::vector<std::size_t>> groups_of(const SweepFile& sweep, const SweepPlan& plan) {
@@ -169,8 +191,7 @@ std::string group_cell(const std::vector<std::size_t>& group, std::size_t metric
   std::vector<double> values;
   for (const std::size_t v : group) {
     const Shown& shown = numbers.cells[v][metric];
-    if (results[v].status != NodeStatus::ok && !shown.found) continue;
-    if (!shown.found) continue;
+    if (results[v].status != NodeStatus::ok || !shown.found) continue;
     if (!shown.cell.number) return shown.cell.text;
     values.push_back(*shown.cell.number);
   }
@@ -184,14 +205,13 @@ Table full_table(const SweepFile& sweep, const SweepPlan& plan, const std::vecto
   const Numbers numbers = numbers_of(sweep, results);
   Table table;
   table.columns.push_back({"id"});
-  for (const auto& axis : sweep.axes) table.columns.push_back({axis.name});
+  for (const auto& axis : sweep.axes) add_columns(axis, table);
   for (auto& column : metric_columns(numbers)) table.columns.push_back(std::move(column));
   table.columns.push_back({"status"});
   for (std::size_t v = 0; v < results.size(); ++v) {
     auto& row = table.rows.emplace_back();
     row.push_back(plan.variants[v].id);
-    for (std::size_t a = 0; a < sweep.axes.size(); ++a)
-      row.push_back(sweep.axes[a].choices[plan.variants[v].choices[a]].label);
+    for (std::size_t a = 0; a < sweep.axes.size(); ++a) add_cells(sweep.axes[a], plan.variants[v].choices[a], row);
     for (const auto& shown : numbers.cells[v])
       row.push_back(!shown.found ? "" : shown.cell.number ? fmt::format("{}", *shown.cell.number) : shown.cell.text);
     row.push_back(state_of(results[v]));
@@ -212,14 +232,14 @@ Table short_table(const SweepFile& sweep, const SweepPlan& plan, const std::vect
   const Numbers numbers = numbers_of(sweep, results);
   Table table;
   for (const auto& axis : sweep.axes)
-    if (varies(axis) && axis.name != "seed") table.columns.push_back({axis.name});
+    if (varies(axis) && axis.name != "seed") add_columns(axis, table);
   for (auto& column : metric_columns(numbers)) table.columns.push_back(std::move(column));
   table.columns.push_back({"status"});
   for (const auto& group : groups_of(sweep, plan)) {
     auto& row = table.rows.emplace_back();
     for (std::size_t a = 0; a < sweep.axes.size(); ++a)
       if (varies(sweep.axes[a]) && sweep.axes[a].name != "seed")
-        row.push_back(sweep.axes[a].choices[plan.variants[group.front()].choices[a]].label);
+        add_cells(sweep.axes[a], plan.variants[group.front()].choices[a], row);
     for (std::size_t m = 0; m < numbers.metrics.size(); ++m) row.push_back(group_cell(group, m, numbers, results));
     const auto not_ok = [&](std::size_t v) { return results[v].status != NodeStatus::ok; };
     const auto first = std::find_if(group.begin(), group.end(), not_ok);

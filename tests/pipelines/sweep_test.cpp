@@ -1,6 +1,7 @@
 // `atrium sweep` as its users see it.
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -225,6 +226,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "'second.value' is not drawn from a distribution"},
         Mistake{"units", "random: {samples: 2, of: {second.value: {uniform: [1 cm, 1 m]}}}\n",
                 "has bounds in different units"},
+        Mistake{"sheet", "pictures: {../a.png: b.png}\n", "'../a.png' cannot be the file of a sheet"},
+        Mistake{"sheet_name", "pictures: {table.csv: b.png}\n", "'table.csv' cannot be the file of a sheet"},
         Mistake{"base", "grid: {}\n", "'grid' must be a mapping that is not empty"}),
     [](const auto& mistake) { return mistake.param.name; });
 
@@ -233,6 +236,85 @@ TEST_F(Sweep, AMetricThatNoVariantHasIsAnError) {
   const auto result = atrium({"run", "s.yaml", "--out", "out", "--quiet"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.err.find("no variant has the metric 'sum'"), std::string::npos) << result.err;
+}
+
+TEST_F(Sweep, ForeignFoldersAreRefusedAndKept) {
+  sweep("grid: {second.value: [2, 3]}\n");
+  fs::create_directories(folder / "mine");
+  write_text(folder / "mine/table.csv", "a,b");
+  const auto refused = atrium({"run", "s.yaml", "--out", "mine"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("is not the folder of a sweep"), std::string::npos) << refused.err;
+  EXPECT_EQ(read_text(folder / "mine/table.csv"), "a,b");
+  // And a run does not take the folder of a sweep.
+  ASSERT_EQ(atrium({"run", "s.yaml", "--out", "out", "--quiet"}).exit_code, 0);
+  const std::string table = read_text(folder / "out/table.csv");
+  ProcessOptions options;
+  options.folder = folder.path();
+  options.environment.push_back("ATRIUM_PLUGIN_PATH=" ATRIUM_TRIAL_PLUGIN);
+  const auto run = run_process({ATRIUM_PROGRAM, "run", "base.yaml", "--out", "out"}, options);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("is the folder of a sweep"), std::string::npos) << run.err;
+  EXPECT_EQ(read_text(folder / "out/table.csv"), table);
+}
+
+TEST_F(Sweep, WhatIsVariedCannotBeSet) {
+  sweep("grid: {second.value: [2, 3]}\n");
+  const auto result = atrium({"run", "s.yaml", "--out", "out", "-s", "second.value=7"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("'second.value' is varied by the sweep and cannot be set"), std::string::npos)
+      << result.err;
+  EXPECT_EQ(atrium({"run", "s.yaml", "--out", "out", "-q", "-s", "first.value=7"}).exit_code, 0);
+}
+
+TEST_F(Sweep, AVariantWhoseFilesWereChangedRunsAgain) {
+  write_text(folder / "own.yaml", R"(atrium: 1
+nodes:
+  first: {type: trial.step, params: {value: 1}}
+  write: {type: trial.write, in: {value: first.value}, params: {path: value.txt}}
+outputs: {first: first.value}
+)");
+  write_text(folder / "s.yaml", "atrium: 1\nsweep: own.yaml\ngrid: {first.value: [2, 3]}\n");
+  ASSERT_EQ(atrium({"run", "s.yaml", "--out", "out", "--quiet"}).exit_code, 0);
+  const fs::path file = folder / "out/variants" / *ids().begin() / "value.txt";
+  const std::string good = read_text(file);
+  write_text(file, std::string(good.size(), 'x'));  // of the same size
+  const auto result = atrium({"run", "s.yaml", "--out", "out"});
+  EXPECT_NE(result.err.find("(1 before)"), std::string::npos) << result.err;
+  EXPECT_EQ(read_text(file), good);
+}
+
+TEST_F(Sweep, GoesOnAfterItWasKilled) {
+  sweep("list: {a: {second.value: 2}, b: {second.value: 3}, never: {second.mode: wait}}\nmetrics: {sum: number}\n");
+  ProcessOptions options;
+  options.folder = folder.path();
+  options.environment.push_back("ATRIUM_PLUGIN_PATH=" ATRIUM_TRIAL_PLUGIN);
+  options.watch = [this, killed = false](pid_t process, const std::string& err) mutable {
+    std::size_t done = 0;
+    std::error_code ignored;
+    for (const auto& variant : fs::directory_iterator(folder / "out/variants", ignored))
+      done += fs::exists(variant.path() / "result.json") ? 1 : 0;
+    if (killed || done < 2 || err.find("waiting") == std::string::npos) return;
+    killed = true;
+    ::kill(process, SIGKILL);
+  };
+  run_process({ATRIUM_PROGRAM, "sweep", "run", "s.yaml", "--out", "out"}, options);
+  sweep("list: {a: {second.value: 2}, b: {second.value: 3}, c: {second.value: 4}}\nmetrics: {sum: number}\n");
+  const auto result = atrium({"run", "s.yaml", "--out", "out"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("3 variants done (2 before)"), std::string::npos) << result.err;
+}
+
+TEST_F(Sweep, MeansAreOfWhatIsDone) {
+  // Seed 1 and 2 of "good" are done; "stopped" fails at once and ends the sweep.
+  sweep(
+      "list: {good: {}, stopped: {second.mode: fail}}\nseeds: [1, 2]\nmetrics: {sum: number, time: {seconds: all}}\n");
+  const auto result = atrium({"run", "s.yaml", "--out", "out", "-j", "1", "--quiet"});
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_NE(result.out.find("good     3 ± 0"), std::string::npos) << result.out;
+  const std::string last = result.out.substr(result.out.find("stopped"));
+  EXPECT_NE(last.find("2 of 2 failed"), std::string::npos) << result.out;
+  EXPECT_EQ(last.find("±"), std::string::npos) << result.out;
 }
 
 TEST_F(Sweep, PicturesOfAllVariantsStandOnOneSheet) {
