@@ -1,0 +1,76 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/cloud.hpp"
+#include "modules/types/floor_plan.hpp"
+#include "modules/types/mesh.hpp"
+
+namespace atrium::baseline {
+
+/// The 2.5-D way of the floor-plan methods: a plan of rooms, each pulled up from its floor to its ceiling.
+///
+/// With `plan` (io.read_layout reads what 360-DFPE and others write: JSON of room corners; floorplan.project makes one)
+/// its rooms are extruded, or a storey's floors where it has no rooms. A height that the plan does not know is the
+/// cloud's if there is one, else `height`.
+///
+/// With a cloud alone the plan is drawn from it: z up and one storey, as the alignment steps give it. Floor and ceiling
+/// are found as percentiles of the points' heights. An image of the plan shows where the ceiling was seen, less the
+/// pixels that points cover over most of the height (the density image of the field: Okorn et al. 2010; here shares of
+/// the height instead of counts, which fall with the distance from the scanner). Each connected piece is a room; its
+/// border is simplified (Douglas and Peucker 1973), turned into the plan's main direction where it nearly runs along it
+/// (Manhattan), and moved onto the median of the wall points before it. Rooms with a ceiling at another height than
+/// most, sloped ceilings and doors are beyond this way, as they are beyond its kind.
+///
+/// Every room is a closed prism seen from inside: floor, ceiling and one wall per side, with classes, storeys and one
+/// primitive each. Errors: neither input; a plan without rooms and floors, with a ring that has less than three corners
+/// or is not finite; a cloud of too few points, with floor and ceiling less than a metre apart, or in which no room is
+/// found.
+struct ExtrudedPlan {
+  static constexpr std::string_view type = "baseline.extruded_plan";
+  static constexpr std::string_view summary = "Extrudes a floor plan, given or drawn from the cloud, to walls (2.5-D).";
+  struct In {
+    OptionalInput<FloorPlan> plan;
+    OptionalInput<Cloud> cloud;
+  };
+  struct Out {
+    Mesh mesh;
+    FloorPlan plan;
+  };
+  struct Params {
+    double height = 2.5;
+    double percentile = 0.02;
+    double pixel = 0.04;
+    double closing = 0.08;
+    double min_coverage = 0.4;
+    double min_room_area = 1;
+    double tolerance = 0.1;
+    double snap_angle = 20;
+    double reach = 0.15;
+  };
+  static constexpr auto inputs = std::tuple{
+      port(&In::plan, "plan", "Rooms to extrude; without it they are drawn from the cloud."),
+      port(&In::cloud, "cloud", "The scan, z up, best with normals: rooms, or only heights if there is a plan.")};
+  static constexpr auto outputs = std::tuple{port(&Out::mesh, "mesh", "The rooms, in the frame of the plan or cloud."),
+                                             port(&Out::plan, "plan", "What was extruded, with its heights.")};
+  static constexpr auto params = std::tuple{
+      param(&Params::height, "height", metres, within(0.1, 100), "Floor to ceiling, where nothing tells it."),
+      param(&Params::percentile, "percentile", ratio, within(0, 0.4),
+            "Floor and ceiling are looked for at this and at one minus this share of the points' heights."),
+      param(&Params::pixel, "pixel", metres, within(0.005, 1), "Of the image: a little more than the points' spacing."),
+      param(
+          &Params::closing, "closing", metres, within(0, 1),
+          "Gaps of the ceiling up to twice this are closed, pieces narrower than twice this dropped; below the walls' "
+          "thickness."),
+      param(&Params::min_coverage, "min_coverage", ratio, within(0.01, 1),
+            "A pixel is a wall's if points cover at least this share of its height."),
+      param(&Params::min_room_area, "min_room_area", square_metres, within(0, 1e6),
+            "Smaller rooms are dropped, smaller holes (columns, cupboards) filled."),
+      param(&Params::tolerance, "tolerance", metres, within(0.001, 10),
+            "Of the simplification: corners that stand out less are given up."),
+      param(&Params::snap_angle, "snap_angle", degrees, within(0, 45),
+            "Walls within this of the main direction take it (Manhattan); 0: each keeps its own."),
+      param(&Params::reach, "reach", metres, within(0, 1), "Walls move at most this far onto the points before them."),
+  };
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::baseline
