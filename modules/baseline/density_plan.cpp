@@ -15,16 +15,24 @@ namespace {
 constexpr float level = 0.8F;     // |nz| of floors and ceilings, at least
 constexpr float sideways = 0.3F;  // |nz| of walls, at most
 constexpr double near_height = 0.05;
-constexpr double ceiling_band = 0.1;
+constexpr double ceiling_from = 0.85;  // of the height: lower level surfaces are no ceiling
+constexpr double lintel_from = 0.8;    // of the height: above doors and windows
+constexpr double lintel_to = 0.96;
 constexpr double wall_band = 0.2;  // from floor and ceiling: what lies there belongs to them
-constexpr double cell_height = 0.2;
+constexpr double cell_height = 0.08;
 constexpr double most_pixels = 1e8;
+constexpr int opening = 3;  // pixels
 
 bool is_level(const Cloud& cloud, std::size_t i) {
   return !cloud.has_normals() || std::abs(cloud.normals[i].z()) >= level;
 }
 bool is_sideways(const Cloud& cloud, std::size_t i) {
   return !cloud.has_normals() || std::abs(cloud.normals[i].z()) <= sideways;
+}
+
+bool is_ceiling(const Cloud& cloud, std::size_t i, const StoreyHeights& heights) {
+  const double z = cloud.points[i].z() - heights.floor, height = heights.ceiling - heights.floor;
+  return is_level(cloud, i) && z >= ceiling_from * height && z <= height + wall_band;
 }
 
 double median_near(std::vector<double> heights, double height) {
@@ -34,12 +42,15 @@ double median_near(std::vector<double> heights, double height) {
   return *middle;
 }
 
-PlanImage empty_image(const Cloud& cloud, double pixel) {
+// With a margin that no point lies in.
+PlanImage empty_image(const Cloud& cloud, double pixel, double margin) {
   Eigen::Vector2d low = cloud.points.front().head<2>().cast<double>(), high = low;
   for (const auto& p : cloud.points) {
     low = low.cwiseMin(p.head<2>().cast<double>());
     high = high.cwiseMax(p.head<2>().cast<double>());
   }
+  low.array() -= margin;
+  high.array() += margin;
   const Eigen::Vector2d size = ((high - low) / pixel).array().ceil() + 1;
   if (size.x() * size.y() > most_pixels)
     throw Error(fmt::format("a plan of {:.0f} × {:.0f} pixels is too large", size.x(), size.y()),
@@ -54,14 +65,12 @@ std::int32_t& pixel_of(PlanImage& image, const Eigen::Vector3f& p) {
 PlanImage ceiling_image(const Cloud& cloud, const StoreyHeights& heights, const PlanImage& empty) {
   PlanImage image = empty;
   for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (is_level(cloud, i) && std::abs(cloud.points[i].z() - heights.ceiling) <= ceiling_band)
-      pixel_of(image, cloud.points[i]) = 1;
+    if (is_ceiling(cloud, i, heights)) pixel_of(image, cloud.points[i]) = 1;
   return image;
 }
 
-// 1 where points cover the share min_coverage of the height between the bands.
-PlanImage wall_image(const Cloud& cloud, const StoreyHeights& heights, const PlanImage& empty, double min_coverage) {
-  const double low = heights.floor + wall_band, high = heights.ceiling - wall_band;
+// 1 where points cover the share min_coverage of the height between `low` and `high`.
+PlanImage covered_image(const Cloud& cloud, double low, double high, const PlanImage& empty, double min_coverage) {
   const int cells = std::clamp(static_cast<int>((high - low) / cell_height), 1, 31);
   PlanImage image = empty;  // a bit per cell
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -72,6 +81,16 @@ PlanImage wall_image(const Cloud& cloud, const StoreyHeights& heights, const Pla
   }
   for (auto& v : image.values) v = __builtin_popcount(static_cast<unsigned>(v)) >= min_coverage * cells ? 1 : 0;
   return image;
+}
+
+// Covered over the whole height, or above doors and windows: a lintel ends a room too. A pixel to each side is theirs.
+PlanImage wall_image(const Cloud& cloud, const StoreyHeights& heights, const PlanImage& empty, double min_coverage) {
+  const double height = heights.ceiling - heights.floor;
+  PlanImage walls = covered_image(cloud, heights.floor + wall_band, heights.ceiling - wall_band, empty, min_coverage);
+  const PlanImage above = covered_image(cloud, heights.floor + lintel_from * height, heights.floor + lintel_to * height,
+                                        empty, min_coverage);
+  for (std::size_t i = 0; i < walls.values.size(); ++i) walls.values[i] |= above.values[i];
+  return dilated(walls, 1);
 }
 
 WallPoints wall_points(const Cloud& cloud, const StoreyHeights& heights) {
@@ -85,16 +104,35 @@ WallPoints wall_points(const Cloud& cloud, const StoreyHeights& heights) {
   return walls;
 }
 
+// The median height of the ceiling over each room, else that of the storey.
+void set_heights(const Cloud& cloud, const StoreyHeights& heights, const PlanImage& rooms,
+                 const std::vector<std::int32_t>& numbers, std::vector<PlanRoom>& result) {
+  const std::int32_t most = *std::max_element(rooms.values.begin(), rooms.values.end());
+  std::vector<std::vector<double>> found(static_cast<std::size_t>(most) + 1);
+  PlanImage image = rooms;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (is_ceiling(cloud, i, heights))
+      found[static_cast<std::size_t>(pixel_of(image, cloud.points[i]))].push_back(cloud.points[i].z());
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    auto& z = found[static_cast<std::size_t>(numbers[k])];
+    const auto middle = z.begin() + static_cast<std::ptrdiff_t>(z.size() / 2);
+    std::nth_element(z.begin(), middle, z.end());
+    result[k].height = (z.empty() ? heights.ceiling : *middle) - heights.floor;
+  }
+}
+
 // Each room's squares have its number; the borders of those that are large enough.
-std::vector<PlanPolygon> room_borders(const PlanImage& inside, double min_area) {
+std::vector<PlanPolygon> room_borders(const PlanImage& inside, double min_area, PlanImage& rooms,
+                                      std::vector<std::int32_t>& numbers) {
   std::vector<std::size_t> sizes;
-  const PlanImage rooms = components(inside, sizes);
+  rooms = components(inside, sizes);
   std::vector<PlanPolygon> borders;
   for (std::size_t k = 0; k < sizes.size(); ++k) {
     if (static_cast<double>(sizes[k]) * inside.pixel * inside.pixel < min_area) continue;
     PlanPolygon border = border_of(rooms, static_cast<std::int32_t>(k + 1));
     std::erase_if(border.holes, [&](const PlanRing& hole) { return PlanPolygon{hole, {}}.area() > -min_area; });
     borders.push_back(std::move(border));
+    numbers.push_back(static_cast<std::int32_t>(k + 1));
   }
   return borders;
 }
@@ -130,17 +168,21 @@ StoreyHeights storey_heights(const Cloud& cloud, double percentile) {
 
 std::vector<PlanRoom> density_rooms(const Cloud& cloud, const StoreyHeights& heights, const DensityLimits& limits,
                                     const Context& context) {
-  const PlanImage empty = empty_image(cloud, limits.pixel);
+  const PlanImage empty = empty_image(cloud, limits.pixel, limits.closing + limits.pixel);
   const int closing = static_cast<int>(std::lround(limits.closing / limits.pixel));
   PlanImage inside = eroded(dilated(ceiling_image(cloud, heights, empty), closing), closing);
   context.check_cancelled();
-  inside = dilated(eroded(inside, closing), closing);  // outliers go
   const PlanImage walls = wall_image(cloud, heights, empty, limits.min_coverage);
   for (std::size_t i = 0; i < inside.values.size(); ++i)
     if (walls.values[i] != 0) inside.values[i] = 0;
+  // Outliers and the insides of walls go; corners that squares cut off a turned plan come back.
+  const PlanImage wide = dilated(eroded(inside, opening), opening + 1);
+  for (std::size_t i = 0; i < inside.values.size(); ++i) inside.values[i] &= wide.values[i];
   context.check_cancelled();
 
-  const auto borders = room_borders(inside, limits.min_room_area);
+  PlanImage numbered;
+  std::vector<std::int32_t> numbers;
+  const auto borders = room_borders(inside, limits.min_room_area, numbered, numbers);
   const WallPoints points = wall_points(cloud, heights);
   const double direction = refined_direction(direction_of(borders, limits.tolerance), points);
   const OutlineLimits outline{limits.tolerance, limits.snap_angle, limits.reach};
@@ -149,13 +191,13 @@ std::vector<PlanRoom> density_rooms(const Cloud& cloud, const StoreyHeights& hei
       borders.size(),
       [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
-          rooms[k].height = heights.ceiling - heights.floor;
           rooms[k].polygon.outline = straight_outline(borders[k].outline, direction, points, outline);
           for (const auto& hole : borders[k].holes)
             rooms[k].polygon.holes.push_back(straight_outline(hole, direction, points, outline));
         }
       },
       1);
+  set_heights(cloud, heights, numbered, numbers, rooms);
   return rooms;
 }
 

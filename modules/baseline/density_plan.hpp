@@ -15,7 +15,7 @@ struct StoreyHeights {
 struct DensityLimits {
   double percentile = 0.02;   ///< of the points' heights: where floor and ceiling are looked for
   double pixel = 0.04;        ///< metres
-  double closing = 0.08;      ///< gaps of the ceiling up to twice this are closed, metres
+  double closing = 0.3;       ///< gaps of the ceiling up to twice this are closed, metres
   double min_coverage = 0.4;  ///< share of its height over which a wall's pixel was seen
   double min_room_area = 1;   ///< square metres
   double tolerance = 0.1;     ///< of Douglas and Peucker, metres
@@ -28,8 +28,9 @@ struct DensityLimits {
 StoreyHeights storey_heights(const Cloud& cloud, double percentile);
 
 /// One storey's rooms from a cloud with z up: where the ceiling was seen (it hides behind no furniture and ends at
-/// lintels), less the pixels that are covered with points over the height (walls), each connected piece a room, its
-/// border straightened. Coordinates are relative to the cloud's origin.
+/// lintels), less the pixels that are covered with points over the height (walls) or its part above doors (lintels),
+/// each connected piece a room, its border straightened, its ceiling at the median height over it. Coordinates are
+/// relative to the cloud's origin.
 std::vector<PlanRoom> density_rooms(const Cloud& cloud, const StoreyHeights& heights, const DensityLimits& limits,
                                     const Context& context);
 

@@ -13,12 +13,13 @@ namespace atrium::baseline {
 /// cloud's if there is one, else `height`.
 ///
 /// With a cloud alone the plan is drawn from it: z up and one storey, as the alignment steps give it. Floor and ceiling
-/// are found as percentiles of the points' heights. An image of the plan shows where the ceiling was seen, less the
-/// pixels that points cover over most of the height (the density image of the field: Okorn et al. 2010; here shares of
-/// the height instead of counts, which fall with the distance from the scanner). Each connected piece is a room; its
-/// border is simplified (Douglas and Peucker 1973), turned into the plan's main direction where it nearly runs along it
-/// (Manhattan), and moved onto the median of the wall points before it. Rooms with a ceiling at another height than
-/// most, sloped ceilings and doors are beyond this way, as they are beyond its kind.
+/// are found as percentiles of the points' heights. An image of the plan shows where a ceiling was seen, less the
+/// pixels that points cover over most of the height, or of its part above doors (the density image of the field: Okorn
+/// et al. 2010; here shares of the height instead of counts, which fall with the distance from the scanner). Each
+/// connected piece is a room; its border is simplified (Douglas and Peucker 1973), turned into the plan's main
+/// direction where it nearly runs along it (Manhattan), and moved onto the median of the wall points before it. Its
+/// ceiling stands at the median height over it. Sloped ceilings, openings and storeys are beyond this way, as they are
+/// beyond its kind.
 ///
 /// Every room is a closed prism seen from inside: floor, ceiling and one wall per side, with classes, storeys and one
 /// primitive each. Errors: neither input; a plan without rooms and floors, with a ring that has less than three corners
@@ -39,7 +40,7 @@ struct ExtrudedPlan {
     double height = 2.5;
     double percentile = 0.02;
     double pixel = 0.04;
-    double closing = 0.08;
+    double closing = 0.3;
     double min_coverage = 0.4;
     double min_room_area = 1;
     double tolerance = 0.1;
@@ -61,7 +62,7 @@ struct ExtrudedPlan {
           "Gaps of the ceiling up to twice this are closed, pieces narrower than twice this dropped; below the walls' "
           "thickness."),
       param(&Params::min_coverage, "min_coverage", ratio, within(0.01, 1),
-            "A pixel is a wall's if points cover at least this share of its height."),
+            "A pixel is a wall's if points cover at least this share of its height, or of that above doors."),
       param(&Params::min_room_area, "min_room_area", square_metres, within(0, 1e6),
             "Smaller rooms are dropped, smaller holes (columns, cupboards) filled."),
       param(&Params::tolerance, "tolerance", metres, within(0.001, 10),
