@@ -176,7 +176,7 @@ std::vector<PlanRoom> density_rooms(const Cloud& cloud, const StoreyHeights& hei
   for (std::size_t i = 0; i < inside.values.size(); ++i)
     if (walls.values[i] != 0) inside.values[i] = 0;
   // Outliers and the insides of walls go; corners that squares cut off a turned plan come back.
-  const PlanImage wide = dilated(eroded(inside, opening), opening + 1);
+  const PlanImage wide = dilated(eroded(inside, opening), 2 * opening);
   for (std::size_t i = 0; i < inside.values.size(); ++i) inside.values[i] &= wide.values[i];
   context.check_cancelled();
 
