@@ -57,10 +57,8 @@ struct ExtrudedPlan {
       param(&Params::percentile, "percentile", ratio, within(0, 0.4),
             "Floor and ceiling are looked for at this and at one minus this share of the points' heights."),
       param(&Params::pixel, "pixel", metres, within(0.005, 1), "Of the image: a little more than the points' spacing."),
-      param(
-          &Params::closing, "closing", metres, within(0, 1),
-          "Gaps of the ceiling up to twice this are closed, pieces narrower than twice this dropped; below the walls' "
-          "thickness."),
+      param(&Params::closing, "closing", metres, within(0, 1),
+            "Gaps of the ceiling up to twice this are closed, as far as walls let it."),
       param(&Params::min_coverage, "min_coverage", ratio, within(0.01, 1),
             "A pixel is a wall's if points cover at least this share of its height, or of that above doors."),
       param(&Params::min_room_area, "min_room_area", square_metres, within(0, 1e6),
