@@ -10,7 +10,9 @@ namespace atrium::render {
 
 /// Several pictures with captions on one sheet: the stages of a run, or the variants of a parameter.
 ///
-/// Pictures stand in the order of the inputs, row by row, each shrunk to fit its cell. Errors: no picture at all.
+/// Pictures stand in the order of the inputs, row by row, each shrunk to fit its cell; captions that are wider than
+/// their cell are cut, with "…". Errors: no picture at all; a sheet of more than 100 million pixels; a file that is no
+/// .png.
 struct ContactSheet {
   static constexpr std::string_view type = "render.contact_sheet";
   static constexpr std::string_view summary = "Puts several pictures with captions on one sheet.";
@@ -32,7 +34,7 @@ struct ContactSheet {
   static constexpr auto inputs = std::tuple{port(&In::pictures, "pictures", "What to show, in this order.")};
   static constexpr auto outputs = std::tuple{port(&Out::sheet, "sheet", "The sheet, one picture.")};
   static constexpr auto params =
-      std::tuple{param(&Params::path, "path", "PNG file."),
+      std::tuple{param(&Params::path, "path", "PNG file, NAME.png."),
                  param(&Params::columns, "columns", count, within(1, 20), "Pictures in a row."),
                  param(&Params::cell_width, "cell_width", count, within(64, 4096),
                        "Pixels across for each picture; its height follows from the first picture's shape."),

@@ -44,11 +44,11 @@ Eigen::AlignedBox3d trimmed_box(const std::vector<Eigen::Vector3f>& places, doub
   return box;
 }
 
-/// Points on a triangle, at most `spacing` apart.
+/// Points on a triangle, at most `spacing` apart, but not more than 1000 along a side.
 void sample(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double spacing,
             std::vector<Eigen::Vector3f>& points) {
   const double longest = std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
-  const int steps = std::max(1, static_cast<int>(std::ceil(longest / spacing)));
+  const int steps = static_cast<int>(std::clamp(std::ceil(longest / spacing), 1.0, 1000.0));
   for (int i = 0; i <= steps; ++i)
     for (int k = 0; k <= steps - i; ++k)
       points.emplace_back((a + (b - a) * i / steps + (c - a) * k / steps).cast<float>());
@@ -85,7 +85,8 @@ void Drawing::add_points(const Cloud& cloud, const std::vector<std::uint32_t>& c
   for (const auto i : chosen) places.push_back(impl_->place(cloud.points[i].cast<double>(), shift));
   const Eigen::AlignedBox3d box = trimmed_box(places, 0.001);
   impl_->box.extend(box);
-  const double top = cut_below_top > 0 ? box.max().z() - cut_below_top : 1e30;
+  const bool cut = cut_below_top > 0 && box.sizes().z() >= 2 * cut_below_top;
+  const double top = cut ? box.max().z() - cut_below_top : 1e30;
 
   const PointSpacing density = point_spacing(places);
   for (const char lone : {0, 1}) {
@@ -129,11 +130,13 @@ void Drawing::add_adjacency(const PlaneMeshes& meshes, const Adjacency& adjacenc
     centre /= static_cast<double>(std::max<std::size_t>(mesh.corners.size(), 1));
     const Eigen::Vector3f place = impl_->place(centre, shift);
     points->InsertNextPoint(place.data());
-    impl_->box.extend(place.cast<double>());
   }
   vtkNew<vtkCellArray> lines;
-  for (const auto& edge : adjacency.edges())
+  for (const auto& edge : adjacency.edges()) {
     lines->InsertNextCell({static_cast<vtkIdType>(edge.a), static_cast<vtkIdType>(edge.b)});
+    for (const auto end : {edge.a, edge.b})
+      impl_->box.extend(Eigen::Map<const Eigen::Vector3d>(points->GetPoint(static_cast<vtkIdType>(end))));
+  }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
   data->SetLines(lines);

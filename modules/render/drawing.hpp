@@ -46,7 +46,7 @@ class Drawing {
   /// The box that a camera must show: meshes whole, clouds without their outermost 0.1 % on each side.
   Eigen::AlignedBox3d bounds() const;
   bool empty() const;
-  /// The classes of surfaces that are drawn in their class's colour.
+  /// The classes of surfaces that are drawn in their class's colour; none from meshes without classes.
   const std::set<SurfaceClass>& classes() const;
   /// Points on all that is drawn: those of clouds, and of triangles a few centimetres apart; some hundred thousand.
   std::vector<Eigen::Vector3f> surface_points() const;

@@ -11,11 +11,13 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <map>
 
 #include "graph/api/error.hpp"
 #include "modules/render/drawing_impl.hpp"
+#include "modules/render/drawn_box.hpp"
 #include "modules/types/palette.hpp"
 
 namespace atrium::render {
@@ -68,6 +70,7 @@ struct Sorted {
   vtkNew<vtkCellArray> plain;
   vtkNew<vtkUnsignedCharArray> colours;                            ///< per plain triangle
   std::map<std::int32_t, vtkSmartPointer<vtkCellArray>> textured;  ///< by primitive
+  std::vector<std::array<std::uint32_t, 3>> drawn;                 ///< all of them
   Mesh outlined;                                                   ///< what has outlines: all but objects
 };
 
@@ -107,6 +110,7 @@ void sort_triangles(const Mesh& mesh, const Drawing::MeshStyle& style,
     if (!style.ceilings && surface == SurfaceClass::ceiling) continue;
     const auto primitive = mesh.primitives.empty() ? -1 : mesh.primitives[t];
     const auto& [a, b, c] = mesh.triangles[t];
+    sorted.drawn.push_back(mesh.triangles[t]);
     if (images.contains(primitive)) {
       auto& cells = sorted.textured[primitive];
       if (!cells) cells = vtkSmartPointer<vtkCellArray>::New();
@@ -114,7 +118,7 @@ void sort_triangles(const Mesh& mesh, const Drawing::MeshStyle& style,
     } else {
       sorted.plain->InsertNextCell({a, b, c});
       sorted.colours->InsertNextTypedTuple(class_colour(surface).data());
-      if (!style.vertex_colours) classes.insert(surface);
+      if (!style.vertex_colours && !mesh.classes.empty()) classes.insert(surface);
     }
     if (surface == SurfaceClass::object) continue;
     sorted.outlined.triangles.push_back(mesh.triangles[t]);
@@ -144,10 +148,11 @@ void Drawing::add_mesh(const Mesh& mesh, const MeshStyle& style, const Textures*
   if (mesh.triangles.empty()) return;
   const Eigen::Vector3d shift = impl_->offset(mesh.origin);
   vtkNew<vtkPoints> points;
+  std::vector<Eigen::Vector3f> places;
+  places.reserve(mesh.vertices.size());
   for (const auto& v : mesh.vertices) {
-    const Eigen::Vector3f place = impl_->place(v, shift);
-    points->InsertNextPoint(place.data());
-    impl_->box.extend(place.cast<double>());
+    places.push_back(impl_->place(v, shift));
+    points->InsertNextPoint(places.back().data());
   }
   std::map<std::int32_t, const FaceTexture*> images;
   if (textures != nullptr)
@@ -155,6 +160,10 @@ void Drawing::add_mesh(const Mesh& mesh, const MeshStyle& style, const Textures*
       if (face.primitive >= 0) images[face.primitive] = &face;
   Sorted sorted;
   sort_triangles(mesh, style, images, impl_->classes, sorted);
+  std::vector<std::array<Eigen::Vector3f, 3>> corners;
+  corners.reserve(sorted.drawn.size());
+  for (const auto& [a, b, c] : sorted.drawn) corners.push_back({places[a], places[b], places[c]});
+  impl_->box.extend(drawn_box(corners));
 
   const auto add = [&](vtkCellArray* cells) {
     auto data = vtkSmartPointer<vtkPolyData>::New();

@@ -6,17 +6,13 @@
 #include <numbers>
 #include <optional>
 
+#include "modules/render/quantile.hpp"
+
 namespace atrium::render {
 namespace {
 
 constexpr int directions = 48;
 constexpr double reach = 15;  // metres that count of a line of sight
-
-float quantile(std::vector<float> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 std::vector<float> along(const std::vector<Eigen::Vector3f>& points, int axis) {
   std::vector<float> values(points.size());

@@ -83,11 +83,14 @@ struct Context {
     if (surface == EGL_NO_SURFACE || context == EGL_NO_CONTEXT) no_rendering("no OpenGL 3.2 context can be made");
   }
   void close() const {
-    if (display == EGL_NO_DISPLAY) return;
-    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
-    if (surface != EGL_NO_SURFACE) eglDestroySurface(display, surface);
-    eglTerminate(display);
+    if (display != EGL_NO_DISPLAY) {
+      eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+      if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
+      if (surface != EGL_NO_SURFACE) eglDestroySurface(display, surface);
+      eglTerminate(display);
+    }
+    // Also where nothing could be opened: libEGL frees what it keeps for a thread when the process ends, and once more
+    // when the thread ends after that.
     eglReleaseThread();
   }
 };
@@ -152,15 +155,15 @@ OffscreenWindow::OffscreenWindow(int width, int height) : window_(nullptr) {
   } catch (const NoEgl& problem) {
     reason = problem.what();
   }
-  const bool surfaceless = window_ != nullptr;
-  if (!surfaceless) window_ = new_x_window();
+  surfaceless_ = window_ != nullptr;
+  if (!surfaceless_) window_ = new_x_window();
   if (window_ == nullptr)
     throw Error("no picture can be drawn on this machine: " + reason + ", and there is no X server with OpenGL",
                 "install Mesa's software renderer (apt-get install libegl-mesa0 libgl1-mesa-dri), or run it under a "
                 "virtual X server: xvfb-run -a atrium …");
   window_->SetMultiSamples(0);
   window_->SetSize(width, height);
-  if (!surfaceless) return;
+  if (!surfaceless_) return;
   window_->MakeCurrent();
   static_cast<SurfacelessWindow*>(window_)->OpenGLInit();
 }
@@ -168,6 +171,7 @@ OffscreenWindow::OffscreenWindow(int width, int height) : window_(nullptr) {
 OffscreenWindow::~OffscreenWindow() {
   window_->Finalize();
   window_->Delete();
+  if (!surfaceless_) release_x_thread();
 }
 
 RenderLock::RenderLock() { render_mutex().lock(); }

@@ -19,9 +19,11 @@ class OffscreenWindow {
 
  private:
   vtkRenderWindow* window_;
+  bool surfaceless_ = false;
 };
 
-/// One picture is drawn at a time: OpenGL contexts belong to threads, and nodes run on many.
+/// One thread at a time uses VTK: OpenGL contexts belong to threads and nodes run on many, and VTK's renderer of text
+/// is one for the whole process.
 class RenderLock {
  public:
   RenderLock();

@@ -9,16 +9,10 @@
 
 #include "graph/api/error.hpp"
 #include "modules/geometry/triangle_tree.hpp"
+#include "modules/render/quantile.hpp"
 
 namespace atrium::render {
 namespace {
-
-/// The value below which `share` of them lie.
-float quantile(std::vector<float> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 PointColours scaled(const std::vector<float>& values, ColourScale scale) {
   PointColours result;

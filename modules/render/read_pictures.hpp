@@ -10,7 +10,8 @@ namespace atrium::render {
 /// Reads PNG files for a contact sheet: the pictures of several runs.
 ///
 /// A file that is not there is a picture too: an empty one, whose caption says so, in the size of the first that is. So
-/// one failed run costs a sheet one cell. Errors: no file is there at all; a file that is no PNG.
+/// one failed run costs a sheet one cell. Errors: no file is there at all; a file that is no PNG, damaged, not
+/// whole or of more than 100 million pixels.
 struct ReadPictures {
   static constexpr std::string_view type = "render.read_pictures";
   static constexpr std::string_view summary = "Reads PNG files for a contact sheet.";

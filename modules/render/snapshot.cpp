@@ -89,7 +89,8 @@ Picture draw(const Snapshot::In& in, const Params& params, const std::string& vi
   Overlay overlay;
   add_inputs(drawing, overlay, in, params, open, within, context);
   if (drawing.empty())
-    throw Error("there is nothing to draw", "wire a cloud, planes, meshes or a mesh that is not empty");
+    throw Error("there is nothing to draw",
+                "wire a cloud, planes, meshes or a mesh that is not empty; `ceilings: true` draws ceilings too");
   overlay.title = params.title;
   overlay.text_size = params.text_size;
   overlay.dark_background = dark;
@@ -122,6 +123,10 @@ Snapshot::Out Snapshot::run(const In& in, const Params& params, Context& context
   if (views.empty()) throw Error("no view is asked for", "views: [isometric, top]");
   for (const auto& name : views)
     if (name != "camera" || (params.eye.empty() && params.target.empty())) view_of(name);
+  for (auto view = views.begin(); view != views.end(); ++view)
+    if (std::find(views.begin(), view, *view) != view)
+      throw Error("the view '" + *view + "' is asked for twice", "name each view once");
+  require_png_name(params.path.path);
 
   Out out;
   const std::filesystem::path path = context.output(params.path.path);

@@ -20,8 +20,9 @@ namespace atrium::render {
 ///
 /// All inputs are optional, at least one must be wired; they are drawn together. Inputs in another frame than z up come
 /// with the transform that brings them there: `transform` applies to all of them. The camera fits the meshes and the
-/// cloud without its outermost 0.1 %. Of more than 2 million points every second, third, … is drawn. Errors: nothing to
-/// draw; an unknown view or colour map; a camera that is not a place and a target; no way to render on this machine.
+/// cloud without its outermost 0.1 %; triangles far away from all others do not count if they are few. Of more than 2
+/// million points every second, third, … is drawn. Errors: nothing to draw; an unknown view or colour map; a view that
+/// is named twice; a file that is no .png; a camera that is not a place and a target; no way to render on this machine.
 struct Snapshot {
   static constexpr std::string_view type = "render.snapshot";
   static constexpr std::string_view summary = "Draws clouds, primitives and meshes into PNG files, without a display.";
@@ -123,7 +124,7 @@ struct Snapshot {
       param(
           &Params::cut_below_top, "cut_below_top", metres, within(0, 100),
           "Points nearer than this to the top of the cloud are left out in the isometric and top views, so that rooms "
-          "are looked into; not with `ceilings`."),
+          "are looked into; not with `ceilings`. A cloud that is lower than twice this is drawn whole."),
       param(&Params::edges, "edges", "Draw the outlines of faces."),
       param(&Params::legend, "legend", "Name the classes' colours."),
       param(&Params::scale_bar, "scale_bar",

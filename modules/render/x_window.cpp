@@ -39,4 +39,8 @@ vtkRenderWindow* new_x_window() {
   return window;
 }
 
+void release_x_thread() {
+  if (::Display* display = connection(); display != nullptr) ::glXMakeCurrent(display, None, nullptr);
+}
+
 }  // namespace atrium::render

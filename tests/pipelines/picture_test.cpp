@@ -159,5 +159,35 @@ TEST_F(Picture, WithoutEglItIsDrawnByAnXServerOrIsAClearError) {
   EXPECT_NEAR(size, static_cast<double>(by_egl.size()), 0.05 * size) << "another rasteriser, much the same picture";
 }
 
+TEST_F(Picture, AnXServerDrawsManyByManyThreads) {
+  if (run_process({"sh", "-c", "command -v xvfb-run && command -v Xvfb"}).exit_code != 0)
+    GTEST_SKIP() << "xvfb is not installed";
+  write_text(folder / "many.yaml", R"(atrium: 1
+seed: 5
+nodes:
+  room: {type: synth.room}
+  scan: {type: synth.scan, in: {scene: room.scene}, params: {points: 2000}}
+  a: {type: render.snapshot, in: {truth: scan.truth}, params: {path: a.png, views: [top, inside], width: 160, height: 120}}
+  b: {type: render.snapshot, in: {cloud: scan.cloud}, params: {path: b.png, views: [top, inside], width: 160, height: 120}}
+  c: {type: render.snapshot, in: {truth: scan.truth}, params: {path: c.png, views: [front, left], width: 160, height: 120}}
+)");
+  // Threads that end after the process has begun to would show memory that was freed before.
+  const std::string runs =
+      "for i in 1 2 3 4 5 6; do '" ATRIUM_PROGRAM "' run many.yaml --out run -q -j 4 || exit; done";
+  const auto result =
+      run_process({"xvfb-run", "-a", "sh", "-c", runs},
+                  {folder.path(), {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent", "MALLOC_PERTURB_=165"}});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(pictures(), 6U);
+}
+
+TEST_F(Picture, TheSameViewTwiceOrAnotherFormatIsAnErrorWithoutAFile) {
+  for (const std::string params : {"views: [top, top]", "path: a.jpg"}) {
+    const auto result = draw(three, params + ", width: 64, height: 64");
+    EXPECT_EQ(result.exit_code, 1) << params << result.err;
+    EXPECT_EQ(pictures(), 0U) << params;
+  }
+}
+
 }  // namespace
 }  // namespace atrium::test

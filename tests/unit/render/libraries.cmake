@@ -1,1 +1,2 @@
-list(APPEND libraries atrium_synth atrium_geometry)
+find_package(PNG REQUIRED)
+list(APPEND libraries atrium_synth atrium_geometry PNG::PNG)

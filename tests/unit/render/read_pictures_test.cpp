@@ -30,6 +30,15 @@ TEST(ReadPicturesNode, ReadsPicturesInOrderAndFillsInWhatIsMissing) {
   EXPECT_EQ(pictures[2].height, 2);
 }
 
+TEST(ReadPicturesNode, APictureThatIsNotWholeIsAnError) {
+  const test::TemporaryFolder folder;
+  write_png(grey(64, 64, 10), folder / "a.png");
+  const std::string whole = test::read_text(folder / "a.png");
+  test::write_text(folder / "part.png", whole.substr(0, whole.size() / 2));
+  Context context;
+  EXPECT_THROW(ReadPictures::run({}, {{(folder / "part.png").string()}, {}}, context), Error);
+}
+
 TEST(ReadPicturesNode, SaysWhatIsWrong) {
   const test::TemporaryFolder folder;
   test::write_text(folder / "text.png", "no picture");
