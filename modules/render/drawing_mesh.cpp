@@ -65,6 +65,18 @@ vtkSmartPointer<vtkFloatArray> places_on(const FaceTexture& face, const Mesh& me
   return places;
 }
 
+/// All vertices, those that no triangle uses at another one's place: VTK counts them among what is to be seen.
+vtkSmartPointer<vtkPoints> points_of(const std::vector<Eigen::Vector3f>& places,
+                                     const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  std::vector<char> used(places.size(), 0);
+  for (const auto& triangle : triangles)
+    for (const auto corner : triangle) used[corner] = 1;
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  for (std::size_t i = 0; i < places.size(); ++i)
+    points->InsertNextPoint(places[used[i] != 0 ? i : triangles.front()[0]].data());
+  return points;
+}
+
 /// The triangles of a mesh, sorted into those that are drawn with an image and the rest.
 struct Sorted {
   vtkNew<vtkCellArray> plain;
@@ -147,13 +159,9 @@ void add_outline(vtkRenderer& renderer, vtkPoints* points, const Mesh& mesh, dou
 void Drawing::add_mesh(const Mesh& mesh, const MeshStyle& style, const Textures* textures) {
   if (mesh.triangles.empty()) return;
   const Eigen::Vector3d shift = impl_->offset(mesh.origin);
-  vtkNew<vtkPoints> points;
   std::vector<Eigen::Vector3f> places;
   places.reserve(mesh.vertices.size());
-  for (const auto& v : mesh.vertices) {
-    places.push_back(impl_->place(v, shift));
-    points->InsertNextPoint(places.back().data());
-  }
+  for (const auto& v : mesh.vertices) places.push_back(impl_->place(v, shift));
   std::map<std::int32_t, const FaceTexture*> images;
   if (textures != nullptr)
     for (const auto& face : textures->faces)
@@ -163,7 +171,9 @@ void Drawing::add_mesh(const Mesh& mesh, const MeshStyle& style, const Textures*
   std::vector<std::array<Eigen::Vector3f, 3>> corners;
   corners.reserve(sorted.drawn.size());
   for (const auto& [a, b, c] : sorted.drawn) corners.push_back({places[a], places[b], places[c]});
+  if (corners.empty()) return;
   impl_->box.extend(drawn_box(corners));
+  const auto points = points_of(places, sorted.drawn);
 
   const auto add = [&](vtkCellArray* cells) {
     auto data = vtkSmartPointer<vtkPolyData>::New();

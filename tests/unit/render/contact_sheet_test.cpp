@@ -96,7 +96,7 @@ TEST(ContactSheetNode, ManyAtATimeGetTheSameLetters) {
     Context context(1, host);
     return ContactSheet::run({grey(2)}, own, context).sheet.pictures.at(0).pixels;
   };
-  constexpr int sizes = 40;
+  constexpr int sizes = 24;
   std::vector<std::vector<std::uint8_t>> together(sizes);
   std::vector<std::thread> threads;
   std::atomic<int> next{0};
