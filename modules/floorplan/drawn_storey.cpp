@@ -88,14 +88,14 @@ void draw_room_labels(SvgCanvas& canvas, const Pen& pen, const PlanStorey& store
   canvas.begin_group("fill=\"#1a1a1a\" text-anchor=\"middle\"");
   for (const auto& room : storey.rooms) {
     const std::string area = fmt::format("{:.2f} m\u00B2", room.polygon.area());
-    const std::string height = room.height > 0 ? fmt::format("h {:.2f} m", room.height) : std::string();
+    const std::string height = room.height > 0 ? fmt::format("h {:.2f} m", room.height) : "h unknown";
     const double width = std::max(text_width(room.name, 2.6), text_width(area, 2.2)) + 2;
     const LabelPlace place = label_place(room.polygon, Eigen::Vector2d(width, 15) * pen.mm(), storey.walls);
     const double size = std::max(place.scale, 0.45);  // below, no one could read it
     const Eigen::Vector2d at = pen.at(place.scale > 0 ? place.middle : room.polygon.outline.front());
     canvas.text(at + Eigen::Vector2d(0, -2.2 * size), 3.6 * size, room.name, "font-weight=\"bold\"");
     canvas.text(at + Eigen::Vector2d(0, 2.0 * size), 3.0 * size, area);
-    if (!height.empty()) canvas.text(at + Eigen::Vector2d(0, 5.8 * size), 2.5 * size, height, "fill=\"#666\"");
+    canvas.text(at + Eigen::Vector2d(0, 5.8 * size), 2.5 * size, height, "fill=\"#666\"");
   }
   canvas.end_group();
 }
@@ -125,33 +125,32 @@ void draw_dimensions(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey
   }
 }
 
-void draw_caption(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey, double elevation) {
-  const Bounds2 box = drawing_bounds(storey, pen.mm());
-  double area = 0;
-  for (const auto& room : storey.rooms) area += room.polygon.area();
-  const Bounds2 building = bounds(storey);
+void draw_caption(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey, const Caption& caption) {
+  const Bounds2 box = drawing_bounds(storey, pen.mm()), building = bounds(storey);
   const double left = building.empty() ? box.low.x() : building.low.x();
-  const Eigen::Vector2d at = pen.at({left, box.high.y()}) - Eigen::Vector2d(0, caption_height - 4);
-  canvas.text(at, 3.4, fmt::format("Storey {}", storey.index), "font-weight=\"bold\"");
-  std::string about = fmt::format("floor at {:.2f} m", elevation);
-  if (storey.height > 0) about += fmt::format(" \u00B7 height {:.2f} m", storey.height);
-  about += fmt::format(" \u00B7 {} {} \u00B7 {:.2f} m\u00B2", storey.rooms.size(),
-                       storey.rooms.size() == 1 ? "room" : "rooms", area);
-  canvas.text(at + Eigen::Vector2d(text_width(fmt::format("Storey {}", storey.index), 2.6) + 3, 0), 2.6, about,
-              "fill=\"#444\"");
+  const Eigen::Vector2d at = pen.at({left, box.high.y()}) - Eigen::Vector2d(0, caption.height() - 4);
+  const auto row = [&](double right, double down, const std::string& text) {
+    canvas.text(at + Eigen::Vector2d(right, down), Caption::size, text, "fill=\"#444\"");
+  };
+  canvas.text(at, Caption::name_size, caption.name, "font-weight=\"bold\"");
+  if (caption.stacked) {
+    row(0, Caption::line, caption.level);
+    row(0, 2 * Caption::line, caption.content);
+  } else {
+    row(caption.name_width() + 3, 0, caption.about());
+  }
 }
 
 }  // namespace
 
-void draw_storey(SvgCanvas& canvas, const Sheet& sheet, std::size_t index, const PlanStorey& storey, double elevation,
-                 bool dimensions) {
+void draw_storey(SvgCanvas& canvas, const Sheet& sheet, std::size_t index, const PlanStorey& storey, bool dimensions) {
   const Pen pen(canvas, sheet, index);
   canvas.begin_group(fmt::format("id=\"storey-{}\"", storey.index));
   draw_areas(canvas, pen, storey);
   draw_walls(canvas, pen, storey);
   draw_room_labels(canvas, pen, storey);
   if (dimensions) draw_dimensions(canvas, pen, storey);
-  draw_caption(canvas, pen, storey, elevation);
+  draw_caption(canvas, pen, storey, sheet.captions[index]);
   canvas.end_group();
 }
 

@@ -13,8 +13,9 @@
 namespace atrium::floorplan {
 namespace {
 
-constexpr double furthest = 1e4;    // metres from the plan's origin
-constexpr double abutting = 0.002;  // metres: pieces of a floor nearer than this are joined
+constexpr double furthest = 1e4;        // metres from the plan's origin
+constexpr double abutting = 0.002;      // metres: pieces of a floor nearer than this are joined
+constexpr double least_height = 0.001;  // metres: a ceiling that is less above its floor is not above it
 
 void check(const Mesh& mesh, const Project::Params& params) {
   const std::size_t count = mesh.triangles.size();
@@ -105,12 +106,47 @@ Region ground_of(const PlanStorey& storey, const Project::Params& params) {
   return closed(joined(joined(ground, storey.bodies), united(lines)), std::max(params.floor_gap, abutting));
 }
 
-PlanStorey storey_of(const std::vector<Surface>& surfaces, const Project::Params& params, const Context& context) {
+// Of the floors, else of the foot of the walls, else nothing known.
+void set_elevation(PlanStorey& storey, const std::vector<Surface>& floors, const std::vector<Surface>& surfaces) {
+  const auto walls = of_class(surfaces, SurfaceClass::wall);
+  storey.floor_known = !floors.empty() || !walls.empty();
+  storey.elevation = floors.empty() ? lowest_of(walls.empty() ? surfaces : walls) : level_of(floors);
+}
+
+void set_height(PlanStorey& storey, const std::vector<Surface>& ceilings, double origin_z, const Context& context) {
+  if (ceilings.empty() || !storey.floor_known) return;
+  const double ceiling = level_of(ceilings);
+  if (ceiling - storey.elevation >= least_height)
+    storey.height = ceiling - storey.elevation;
+  else
+    context.warn(fmt::format(
+        "the ceiling of storey {}, at {:.2f} m, is not above its floor, at {:.2f} m: its height is left unknown; are "
+        "floors and ceilings swapped, or is the model upside down?",
+        storey.index, origin_z + ceiling, origin_z + storey.elevation));
+}
+
+void set_room_heights(PlanStorey& storey, const std::vector<Surface>& ceilings, const Context& context) {
+  if (!storey.floor_known) return;
+  std::size_t below = 0;
+  for (auto& room : storey.rooms) {
+    const auto height = height_of(room, ceilings, storey.elevation);
+    if (height && *height < least_height) ++below;
+    if (height && *height >= least_height) room.height = *height;
+  }
+  if (below > 0 && storey.height > 0)
+    context.warn(
+        fmt::format("{} of the {} rooms of storey {} have a ceiling that is not above the storey's floor: their "
+                    "heights are left unknown",
+                    below, storey.rooms.size(), storey.index));
+}
+
+PlanStorey storey_of(const std::vector<Surface>& surfaces, double origin_z, const Project::Params& params,
+                     const Context& context) {
   const auto floors = of_class(surfaces, SurfaceClass::floor), ceilings = of_class(surfaces, SurfaceClass::ceiling);
   PlanStorey storey;
   storey.index = surfaces.front().storey;
-  storey.elevation = floors.empty() ? lowest_of(surfaces) : level_of(floors);
-  if (!ceilings.empty()) storey.height = std::max(0.0, level_of(ceilings) - storey.elevation);
+  set_elevation(storey, floors, surfaces);
+  set_height(storey, ceilings, origin_z, context);
   const auto faces = wall_faces(surfaces, storey.elevation + params.cut_height);
   storey.walls = walls_of(faces, {params.min_thickness, params.max_thickness, params.parallel_angle, params.corner_gap,
                                   params.merge_distance, params.min_wall_length});
@@ -124,7 +160,7 @@ PlanStorey storey_of(const std::vector<Surface>& surfaces, const Project::Params
     context.warn(fmt::format("storey {} has no floor: its rooms are drawn from its ceilings", storey.index));
   storey.rooms = rooms_of(ground_of(storey, params), storey, faces,
                           {params.max_opening, params.min_room_width, params.min_room_area});
-  for (auto& room : storey.rooms) room.height = std::max(0.0, height_of(room, ceilings, storey.elevation));
+  set_room_heights(storey, ceilings, context);
   if (storey.walls.empty()) context.warn(fmt::format("storey {} has no walls", storey.index));
   if (storey.rooms.empty()) context.warn(fmt::format("storey {} has no rooms", storey.index));
   return storey;
@@ -147,7 +183,8 @@ Project::Out Project::run(const In& in, const Params& params, Context& context) 
   for (std::size_t begin = 0, end = 0; begin < surfaces.size(); begin = end) {
     while (end < surfaces.size() && surfaces[end].storey == surfaces[begin].storey) ++end;
     context.check_cancelled();
-    plan.storeys.push_back(storey_of({surfaces.begin() + begin, surfaces.begin() + end}, params, context));
+    plan.storeys.push_back(
+        storey_of({surfaces.begin() + begin, surfaces.begin() + end}, plan.origin.z(), params, context));
     for (auto& room : plan.storeys.back().rooms) room.name = fmt::format("Room {}", ++number);
   }
   return {std::move(plan)};

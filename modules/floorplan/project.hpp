@@ -23,13 +23,14 @@ enum class RoomExtent { floors, floors_and_ceilings };
 ///   face may have several opposite faces along its length. A face that has none is a wall of unknown thickness (0).
 ///   Ends that miss another wall by at most corner_gap are joined to it.
 /// - Floors and ceilings: the union of their pieces as seen from above, holes kept. Elevation and height of a storey
-/// are
-///   medians by area; without a floor, the lowest place of its walls counts as the floor.
-/// - Rooms: connected parts of the floors between the walls, the largest first, numbered through all storeys. Ceilings
-///   count as well (room_extent), since furniture hides the floor below it; but a room is one third floor at least, and
-///   `floors` stays what was seen. Gaps up to floor_gap, to walls too, are closed. Openings
-///   of up to max_opening in a face (doors) divide rooms. A storey without floors has its rooms drawn from its
-///   ceilings, with a warning.
+///   are medians by area; without a floor, the lowest place of its walls counts as the floor. A storey without floors
+///   and walls has no known elevation and height; where the ceiling is not above the floor (the model is upside down,
+///   or its classes are swapped), the height is not known either, with a warning.
+/// - Rooms: connected parts of the floors between the walls, up to their faces, the largest first, numbered through all
+///   storeys. Ceilings count as well (room_extent), since furniture hides the floor below it; but a room is one third
+///   floor at least, and `floors` stays what was seen. Gaps up to floor_gap, to walls too, are closed. Openings of up
+///   to max_opening in a face (doors) divide rooms. A storey without floors has its rooms drawn from its ceilings, with
+///   a warning.
 ///
 /// A mesh without walls, floors or ceilings gives a plan without storeys, and a warning; so do storeys without walls or
 /// rooms. Errors: a mesh without classes; coordinates that are not finite, or further than 10 km from the middle of the

@@ -8,7 +8,8 @@ namespace atrium::floorplan {
 namespace {
 
 namespace cl = ClipperLib;
-constexpr double units = 1e5;  // per metre
+constexpr double units = 1e7;      // per metre
+constexpr double straight = 2e-4;  // metres: corners less than this off the line of their neighbours are none
 
 cl::Path to_path(const PlanRing& ring) {
   cl::Path path;
@@ -31,7 +32,7 @@ bool before(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 }
 
 PlanRing to_ring(cl::Path path, bool counter_clockwise) {
-  cl::CleanPolygon(path, 20);  // corners less than 0.2 mm off the line of their neighbours are none
+  cl::CleanPolygon(path, straight * units);
   if (cl::Orientation(path) != counter_clockwise) cl::ReversePath(path);
   PlanRing ring;
   ring.reserve(path.size());

@@ -6,7 +6,7 @@
 namespace atrium::floorplan {
 
 /// Areas of the plan: disjoint polygons, largest first, each ring beginning at its lowest corner (least x, then y).
-/// Computed by Clipper (Vatti 1992) on whole hundredths of a millimetre, so nothing is lost to rounding and equal input
+/// Computed by Clipper (Vatti 1992) on whole tenths of a micrometre, so nothing is lost to rounding and equal input
 /// gives equal output.
 using Region = std::vector<PlanPolygon>;
 

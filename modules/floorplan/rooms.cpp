@@ -7,7 +7,7 @@
 namespace atrium::floorplan {
 namespace {
 
-constexpr double thin = 0.001;  // metres to both sides of a face: as good as no area
+constexpr double thin = 0.001;  // metres to both sides of a face: what is cut out to part rooms, and given back after
 constexpr double least_floor = 1.0 / 3;
 constexpr double beyond = 0.05;  // metres: a face that ends just before another still divides
 
@@ -22,19 +22,27 @@ Region dividers(const PlanStorey& storey, const std::vector<WallFace>& faces, do
   return united(strips);
 }
 
+// The part of `open` given back what the dividers took: its edges stand on the faces themselves, and the slits that
+// dividers cut at reflex corners are gone. It keeps to what is `free`.
+Region given_back(const PlanPolygon& part, const Region& free) {
+  return common(grown(grown({part}, 2 * thin), -thin), free);
+}
+
 }  // namespace
 
 std::vector<PlanRoom> rooms_of(const Region& ground, const PlanStorey& storey, const std::vector<WallFace>& faces,
                                const RoomLimits& limits) {
-  Region open = minus(minus(ground, storey.bodies), dividers(storey, faces, limits.max_opening));
+  Region free = minus(ground, storey.bodies);
+  Region open = minus(free, dividers(storey, faces, limits.max_opening));
   std::vector<PlanRoom> rooms;
   for (const auto& core : grown(open, -0.5 * limits.min_width)) {
     // The core grown back, and nothing that another room has.
     Region parts = common(grown({core}, 0.5 * limits.min_width + thin), open);
     if (parts.empty()) continue;
     open = minus(open, {parts.front()});
-    parts = closed({parts.front()}, 4 * thin);  // without the slits that dividers cut at reflex corners
+    parts = given_back(parts.front(), free);
     if (parts.empty() || parts.front().area() < limits.min_area) continue;
+    free = minus(free, {parts.front()});
     // Ceilings that stick out past the walls are no rooms.
     if (storey.floors.empty() || area(common(parts, storey.floors)) >= least_floor * parts.front().area())
       rooms.push_back({{}, std::move(parts.front()), 0});
@@ -44,7 +52,7 @@ std::vector<PlanRoom> rooms_of(const Region& ground, const PlanStorey& storey, c
   return rooms;
 }
 
-double height_of(const PlanRoom& room, const std::vector<Surface>& ceilings, double elevation) {
+std::optional<double> height_of(const PlanRoom& room, const std::vector<Surface>& ceilings, double elevation) {
   std::vector<Weighted> heights;
   for (const auto& surface : ceilings)
     for (const auto& triangle : surface.triangles) {
@@ -56,7 +64,8 @@ double height_of(const PlanRoom& room, const std::vector<Surface>& ceilings, dou
         heights.push_back({surface.centre.z() - drop - elevation, part.area()});
       }
     }
-  return heights.empty() ? 0 : median(std::move(heights));
+  if (heights.empty()) return {};
+  return median(std::move(heights));
 }
 
 }  // namespace atrium::floorplan

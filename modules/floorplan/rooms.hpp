@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "modules/floorplan/regions.hpp"
@@ -20,7 +21,7 @@ struct RoomLimits {
 std::vector<PlanRoom> rooms_of(const Region& ground, const PlanStorey& storey, const std::vector<WallFace>& faces,
                                const RoomLimits& limits);
 
-/// Height of a room over `elevation`: the median by area of the ceilings above it; 0 if there is none.
-double height_of(const PlanRoom& room, const std::vector<Surface>& ceilings, double elevation);
+/// Height of a room over `elevation`: the median by area of the ceilings above it; nothing if there is none.
+std::optional<double> height_of(const PlanRoom& room, const std::vector<Surface>& ceilings, double elevation);
 
 }  // namespace atrium::floorplan

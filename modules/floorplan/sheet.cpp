@@ -4,13 +4,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <span>
 
 #include "graph/api/error.hpp"
+#include "modules/floorplan/sheet_grid.hpp"
 
 namespace atrium::floorplan {
 namespace {
 
-constexpr double around = 7;  // millimetres between drawings, and to the frame
+constexpr double least_building = 25;  // millimetres: smaller ones are drawn only if there is no other way
 constexpr std::array<int, 10> scales{50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000, 50000};
 
 struct Format {
@@ -24,43 +28,122 @@ constexpr std::array<Format, 5> formats{{{"A4", Paper::a4, 210, 297},
                                          {"A1", Paper::a1, 594, 841},
                                          {"A0", Paper::a0, 841, 1189}}};
 
-// Lays the boxes out in a row or a column in the middle of the free part of the paper; false if they do not fit.
-bool lay_out(Sheet& sheet, const std::vector<Bounds2>& boxes, bool row) {
-  const int main = row ? 0 : 1;
-  const Eigen::Vector2d room = sheet.size - Eigen::Vector2d(2 * frame_margin, 2 * frame_margin + title_height);
-  Eigen::Vector2d need = Eigen::Vector2d::Constant(around);
-  for (const auto& box : boxes) {
-    const Eigen::Vector2d size = box.size() * sheet.per_metre();
-    need[main] += size[main] + around;
-    need[1 - main] = std::max(need[1 - main], size[1 - main] + 2 * around);
+// What is around the drawings: the margins and the title block.
+Eigen::Vector2d edges() { return {2 * frame_margin, 2 * frame_margin + title_height}; }
+
+// The storeys as they are drawn at one scale.
+struct Drawings {
+  int scale = 0;
+  double building = 0;                 // greatest extent of a storey, millimetres of paper
+  std::vector<Bounds2> boxes;          // metres, captions included
+  std::vector<Eigen::Vector2d> sizes;  // millimetres of paper
+  std::vector<Caption> captions;
+};
+
+Drawings drawings_of(const std::vector<PlanStorey>& storeys, double origin_z, int scale) {
+  Drawings result{scale, 0, {}, {}, {}};
+  const double mm = scale / 1000.0;
+  for (const auto& storey : storeys) {
+    Bounds2 box = drawing_bounds(storey, mm);
+    const Bounds2 building = bounds(storey);
+    Caption caption = caption_of(storey, origin_z);
+    const double left = building.empty() ? box.low.x() : building.low.x();
+    caption.stacked = left + caption.width() * mm > box.high.x();
+    box.high.x() = std::max(box.high.x(), left + caption.width() * mm);
+    box.high.y() += caption.height() * mm;
+    result.building = std::max(result.building, building.size().maxCoeff() / mm);
+    result.sizes.emplace_back(box.size() / mm);
+    result.boxes.push_back(box);
+    result.captions.push_back(std::move(caption));
   }
-  if ((need.array() > room.array()).any()) return false;
-  // What is left over is shared out between and around.
-  const double spare = (room[main] - need[main]) / static_cast<double>(boxes.size() + 1) + around;
-  double at = frame_margin;
-  sheet.places.assign(boxes.size(), Eigen::Vector2d::Zero());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const std::size_t storey = row ? i : boxes.size() - 1 - i;  // the lowest on the left, or at the bottom
-    const Bounds2& box = boxes[storey];
-    const Eigen::Vector2d size = box.size() * sheet.per_metre();
-    Eigen::Vector2d corner;
-    corner[main] = at + spare;
-    corner[1 - main] = frame_margin + 0.5 * (room[1 - main] - size[1 - main]);
-    at += spare + size[main];
-    sheet.places[storey] = corner - sheet.per_metre() * Eigen::Vector2d(box.low.x(), -box.high.y());
+  return result;
+}
+
+// Lays the drawings out on a sheet of the given size; false if they do not fit.
+bool lay_out(Sheet& sheet, const Drawings& drawings, std::size_t columns) {
+  const Eigen::Vector2d room = sheet.size - edges();
+  const SheetGrid grid(drawings.sizes, columns);
+  if ((grid.need().array() > room.array()).any()) return false;
+  sheet.scale = drawings.scale;
+  sheet.captions = drawings.captions;
+  sheet.places.clear();
+  for (std::size_t i = 0; i < drawings.boxes.size(); ++i) {
+    const Bounds2& box = drawings.boxes[i];
+    const Eigen::Vector2d corner =
+        grid.corner(i, drawings.sizes[i], room) + Eigen::Vector2d(frame_margin, frame_margin);
+    sheet.places.emplace_back(corner - sheet.per_metre() * Eigen::Vector2d(box.low.x(), -box.high.y()));
   }
   return true;
 }
 
-bool fits(Sheet& sheet, const Format& format, const std::vector<Bounds2>& boxes) {
+// In a row or a column if there is room for that, lying or upright; else in a grid.
+bool fits(Sheet& sheet, const Format& format, const Drawings& drawings) {
   sheet.paper = format.name;
-  for (const bool landscape : {true, false}) {
-    sheet.size =
-        landscape ? Eigen::Vector2d(format.height, format.width) : Eigen::Vector2d(format.width, format.height);
-    for (const bool row : {true, false})
-      if (lay_out(sheet, boxes, row)) return true;
-  }
+  const auto columns = column_counts(drawings.boxes.size());
+  const std::span all(columns);
+  for (const auto& tried : {all.first(2), all.subspan(2)})
+    for (const bool landscape : {true, false}) {
+      sheet.size =
+          landscape ? Eigen::Vector2d(format.height, format.width) : Eigen::Vector2d(format.width, format.height);
+      for (const std::size_t count : tried)
+        if (lay_out(sheet, drawings, count)) return true;
+    }
   return false;
+}
+
+// On a lying sheet as large as it takes, in whole centimetres, of about the proportions of the A formats.
+Sheet on_custom_paper(const Drawings& drawings) {
+  Sheet sheet;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t best = 1;
+  for (const std::size_t count : column_counts(drawings.boxes.size())) {
+    const Eigen::Vector2d need = SheetGrid(drawings.sizes, count).need() + edges();
+    const double reach = std::max(need.x() / std::sqrt(2.0), need.y());
+    if (reach >= least) continue;
+    least = reach;
+    best = count;
+    sheet.size = 10 * ((need.array() + 1) / 10).ceil();
+  }
+  sheet.size = sheet.size.cwiseMax(Eigen::Vector2d(297, 210));  // the title block wants room, too
+  sheet.paper = fmt::format("{:.0f} \u00D7 {:.0f} mm", sheet.size.x(), sheet.size.y());
+  lay_out(sheet, drawings, best);
+  return sheet;
+}
+
+bool on_any(Sheet& sheet, std::span<const Format> papers, std::span<const Drawings> drawings) {
+  for (const auto& candidate : drawings)
+    for (const auto& format : papers)
+      if (fits(sheet, format, candidate)) return true;
+  return false;
+}
+
+Sheet on_automatic_paper(std::span<const Drawings> drawings) {
+  const std::span<const Format> all(formats);
+  // The greatest scale is never too small, whatever the building.
+  const auto small =
+      std::find_if(drawings.begin() + 1, drawings.end(), [](const Drawings& d) { return d.building < least_building; });
+  const auto legible = drawings.first(static_cast<std::size_t>(small - drawings.begin()));
+  Sheet sheet;
+  for (const auto& papers : {all.first(2), all.subspan(2, 1), all.subspan(3, 1), all.subspan(4, 1)})
+    if (on_any(sheet, papers, legible)) return sheet;
+  return on_custom_paper(legible.back());
+}
+
+[[noreturn]] void fail(const Format& given, std::span<const Drawings> drawings) {
+  Sheet sheet;
+  const auto larger = std::span<const Format>(formats).subspan(static_cast<std::size_t>(&given - formats.data()) + 1);
+  for (const auto& format : larger)
+    if (on_any(sheet, {&format, 1}, drawings))
+      throw Error(fmt::format("the plan does not fit on {} at 1:{}", given.name, drawings.back().scale),
+                  fmt::format("{} has room for it at 1:{}; or leave `paper` auto, give a smaller `scale` (a larger "
+                              "number; 0 chooses one), or one `storey` only",
+                              sheet.paper, sheet.scale));
+  sheet = on_custom_paper(drawings.back());
+  throw Error(
+      fmt::format("the plan does not fit on {} at 1:{}", given.name, sheet.scale),
+      fmt::format("it takes {}: leave `paper` auto; or give a smaller `scale` (a larger number; 0 chooses one), "
+                  "or one `storey` only",
+                  sheet.paper));
 }
 
 }  // namespace
@@ -81,25 +164,21 @@ Bounds2 drawing_bounds(const PlanStorey& storey, double mm) {
   return box;
 }
 
-Sheet arranged(const std::vector<PlanStorey>& storeys, Paper paper, int scale) {
-  Sheet sheet;
-  for (const int candidate : scales) {
-    sheet.scale = scale > 0 ? scale : candidate;
-    std::vector<Bounds2> boxes;
-    for (const auto& storey : storeys) {
-      boxes.push_back(drawing_bounds(storey, sheet.scale / 1000.0));
-      boxes.back().high.y() += caption_height * sheet.scale / 1000.0;
-    }
-    for (const auto& format : formats) {
-      if (paper != Paper::automatic && paper != format.paper) continue;
-      if (paper == Paper::automatic && scale == 0 && format.paper > Paper::a3) continue;
-      if (fits(sheet, format, boxes)) return sheet;
-    }
-    if (scale > 0) break;
+Sheet arranged(const std::vector<PlanStorey>& storeys, double origin_z, Paper paper, int scale) {
+  std::vector<Drawings> drawings;
+  if (scale > 0)
+    drawings.push_back(drawings_of(storeys, origin_z, scale));
+  else
+    for (const int usual : scales) drawings.push_back(drawings_of(storeys, origin_z, usual));
+  if (paper == Paper::automatic) {
+    if (scale == 0) return on_automatic_paper(drawings);
+    Sheet sheet;
+    return on_any(sheet, formats, drawings) ? sheet : on_custom_paper(drawings.front());
   }
-  throw Error(
-      fmt::format("the plan does not fit on {} at 1:{}", paper == Paper::automatic ? "A0" : sheet.paper, sheet.scale),
-      "give a larger `paper`, a smaller `scale` (a larger number; 0 chooses one), or one `storey` only");
+  const auto given = std::find_if(formats.begin(), formats.end(), [&](const Format& f) { return f.paper == paper; });
+  Sheet sheet;
+  if (!on_any(sheet, {&*given, 1}, drawings)) fail(*given, drawings);
+  return sheet;
 }
 
 }  // namespace atrium::floorplan

@@ -1,10 +1,8 @@
 #include "modules/floorplan/svg_canvas.hpp"
 
 namespace atrium::floorplan {
-namespace {
 
-// Length of the UTF-8 character that begins at text[i], 0 if it is none or not allowed in XML.
-std::size_t character_at(std::string_view text, std::size_t i) {
+std::size_t character_length(std::string_view text, std::size_t i) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const unsigned char lead = byte(i);
   if (lead < 0x80) return lead >= 0x20 || lead == '\t' || lead == '\n' || lead == '\r' ? 1 : 0;
@@ -19,6 +17,8 @@ std::size_t character_at(std::string_view text, std::size_t i) {
   return overlong || beyond || none ? 0 : length;
 }
 
+namespace {
+
 std::string place(const Eigen::Vector2d& p) { return fmt::format("{:.3f},{:.3f}", p.x() + 0.0, p.y() + 0.0); }
 
 }  // namespace
@@ -26,7 +26,7 @@ std::string place(const Eigen::Vector2d& p) { return fmt::format("{:.3f},{:.3f}"
 std::string escaped(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = character_at(text, i);
+    const std::size_t length = character_length(text, i);
     switch (length == 1 ? text[i] : 0) {
       case '&': result += "&amp;"; break;
       case '<': result += "&lt;"; break;

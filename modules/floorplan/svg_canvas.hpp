@@ -13,6 +13,9 @@ namespace atrium::floorplan {
 /// (control characters, broken UTF-8) become U+FFFD.
 std::string escaped(std::string_view text);
 
+/// Length of the UTF-8 character that begins at text[i], 0 if it is none or not allowed in XML.
+std::size_t character_length(std::string_view text, std::size_t i);
+
 /// Collects the elements of an SVG drawing whose unit is the millimetre of paper.
 class SvgCanvas {
  public:

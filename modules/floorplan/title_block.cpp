@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "modules/floorplan/drawn_storey.hpp"
+#include "modules/floorplan/fitted_text.hpp"
 
 namespace atrium::floorplan {
 namespace {
@@ -54,15 +55,20 @@ void draw_title(SvgCanvas& canvas, const Sheet& sheet, const TitleBlock& block) 
   canvas.line({right - 90, top}, {right - 90, top + title_height});
   canvas.end_group();
   canvas.begin_group("fill=\"#1a1a1a\"");
-  canvas.text({left + 5, top + 8.5}, 5, block.title, "font-weight=\"bold\"");
-  canvas.text(
-      {left + 5, top + 14.5}, 2.8,
+  const auto fit = [&](const Eigen::Vector2d& at, const FittedText& fitted, std::string_view attributes) {
+    canvas.text(at, fitted.size, fitted.text, attributes);
+  };
+  const double width = right - 90 - (left + 5) - 3;
+  fit({left + 5, top + 8.5}, fitted(block.title, width, 5, 3, true), "font-weight=\"bold\"");
+  const std::string holds =
       fmt::format("{} {} \u00B7 {} {} \u00B7 {:.2f} m\u00B2", block.storeys, block.storeys == 1 ? "storey" : "storeys",
-                  block.rooms, block.rooms == 1 ? "room" : "rooms", block.area));
-  canvas.text({left + 5, top + 19.5}, 2.4, block.note, "fill=\"#555\"");
-  canvas.text({right - 85, top + 7.5}, 4, fmt::format("1:{}", sheet.scale), "font-weight=\"bold\"");
-  canvas.text({right - 29, top + 7.5}, 2.6, fmt::format("on {}, dimensions in metres", sheet.paper),
-              "text-anchor=\"end\"");
+                  block.rooms, block.rooms == 1 ? "room" : "rooms", block.area);
+  fit({left + 5, top + 14.5}, fitted(holds, width, 2.8, 1.7), {});
+  fit({left + 5, top + 19.5}, fitted(block.note, width, 2.4, 1.5), "fill=\"#555\"");
+  const std::string scale = fmt::format("1:{}", sheet.scale),
+                    paper = fmt::format("on {}, dimensions in metres", sheet.paper);
+  canvas.text({right - 85, top + 7.5}, 4, scale, "font-weight=\"bold\"");
+  fit({right - 29, top + 7.5}, fitted(paper, 56 - font_width(scale, 4, true) - 2, 2.6, 1.6), "text-anchor=\"end\"");
   draw_scale(canvas, sheet, {right - 85, top + 16});
   draw_north(canvas, {right - 12, top + 0.5 * title_height + (std::cos(block.north) > 0 ? 1.5 : -1.5)}, block.north);
   canvas.end_group();

@@ -46,7 +46,7 @@ class Features {
 };
 
 void add_storey(Features& features, const PlanStorey& storey, double origin_z) {
-  const double elevation = rounded(origin_z + storey.elevation, 1e4);
+  const Json elevation = storey.floor_known ? Json(rounded(origin_z + storey.elevation, 1e4)) : Json();
   for (const auto& room : storey.rooms)
     features.add({{"class", "room"},
                   {"storey", storey.index},

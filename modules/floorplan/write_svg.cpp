@@ -35,12 +35,12 @@ WriteSvg::Out WriteSvg::run(const In& in, const Params& params, Context& context
   if (params.storey >= 0 && storeys.empty())
     throw Error(fmt::format("the plan has no storey {}", params.storey),
                 fmt::format("it has {}, counted from 0; -1 draws all", plan.storeys.size()));
-  const Sheet sheet = arranged(storeys, params.paper, params.scale);
+  const Sheet sheet = arranged(storeys, plan.origin.z(), params.paper, params.scale);
   TitleBlock block{params.title, note_of(plan, turn), 0, storeys.size(), 0, -turn};
   SvgCanvas canvas(sheet.size.x(), sheet.size.y(), params.title);
   canvas.raw(hatch);
   for (std::size_t i = 0; i < storeys.size(); ++i) {
-    draw_storey(canvas, sheet, i, storeys[i], plan.origin.z() + storeys[i].elevation, params.dimensions);
+    draw_storey(canvas, sheet, i, storeys[i], params.dimensions);
     block.rooms += storeys[i].rooms.size();
     for (const auto& room : storeys[i].rooms) block.area += room.polygon.area();
   }

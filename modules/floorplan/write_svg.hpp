@@ -12,14 +12,17 @@ enum class Axes { walls, input };
 /// the wall is; a room's edge without a wall is dashed. Each room has its name, area and height; outside of the
 /// building stand chains of dimensions, of the wall faces seen from that side and of the whole, in metres. The sheet
 /// has a scale bar, a north arrow (the input's +y), and a title block with the scale, the number of rooms and their
-/// area; no date, so that the same plan gives the same bytes.
+/// area; no date, so that the same plan gives the same bytes. An elevation or a height that is not known is said to be
+/// unknown; a title that is too long for its place is set smaller, or cut off with "…".
 ///
-/// All storeys stand on one sheet, the lowest on the left or at the bottom, at the greatest usual scale that A4 or A3
-/// has room for (1:50, 1:100, 1:200, 1:500, …) unless `scale` and `paper` say otherwise; `storey` draws one alone. The
-/// plan is turned so that most walls are parallel to the sheet's edges, by at most 45°.
+/// All storeys stand on one sheet, the lowest at the left and at the bottom, at the greatest usual scale that A4 or A3
+/// has room for (1:50, 1:100, 1:200, 1:500, …) unless `scale` and `paper` say otherwise; `storey` draws one alone. Many
+/// storeys, whose buildings would be smaller than 25 mm there, go on A2, A1 or A0, or on a sheet as large as it takes:
+/// a plan that may choose its paper always fits. The plan is turned so that most walls are parallel to the sheet's
+/// edges, by at most 45°.
 ///
 /// A plan without storeys gives a sheet that says so, and a warning. Errors: no such storey; a plan that does not fit
-/// on the given paper at the given scale; a folder that cannot be written. Then no file is there.
+/// on the given paper, and which would do; a folder that cannot be written. Then no file is there.
 struct WriteSvg {
   static constexpr std::string_view type = "floorplan.write_svg";
   static constexpr std::string_view summary = "Draws a floor plan to scale, with dimensions and labels, as SVG.";
@@ -49,7 +52,7 @@ struct WriteSvg {
              {"A2", Paper::a2},
              {"A1", Paper::a1},
              {"A0", Paper::a0}},
-            "The sheet, upright or lying; auto: the smaller of A4 and A3, with a given scale up to A0."),
+            "The sheet, upright or lying; auto: A4 or A3, larger if it must be."),
       param(&Params::scale, "scale", unitless, within(0, 100000), "50 means 1:50; 0: the greatest that fits."),
       param(&Params::axes, "axes", {{"walls", Axes::walls}, {"input", Axes::input}},
             "What is parallel to the sheet: the walls, or the input's x and y."),

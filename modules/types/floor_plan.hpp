@@ -44,12 +44,14 @@ struct PlanRoom {
 
 struct PlanStorey {
   static constexpr auto members() {
-    return std::tuple{&PlanStorey::index,  &PlanStorey::elevation, &PlanStorey::height,   &PlanStorey::walls,
-                      &PlanStorey::bodies, &PlanStorey::floors,    &PlanStorey::ceilings, &PlanStorey::rooms};
+    return std::tuple{&PlanStorey::index,  &PlanStorey::elevation, &PlanStorey::floor_known,
+                      &PlanStorey::height, &PlanStorey::walls,     &PlanStorey::bodies,
+                      &PlanStorey::floors, &PlanStorey::ceilings,  &PlanStorey::rooms};
   }
   std::int32_t index = 0;  ///< 0 is the lowest
-  double elevation = 0;    ///< of the floor, metres, relative to origin
-  double height = 0;       ///< floor to ceiling, metres; 0: not known
+  double elevation = 0;  ///< of the floor, metres, relative to origin; where it is not known, the storey's lowest place
+  bool floor_known = true;  ///< whether elevation is that of a floor, or of the foot of the walls
+  double height = 0;        ///< floor to ceiling, metres; 0: not known
   std::vector<PlanWall> walls;
   std::vector<PlanPolygon> bodies;  ///< what the walls of known thickness cover, joined at corners and junctions
   std::vector<PlanPolygon> floors;

@@ -34,6 +34,18 @@ std::string error_of(const Mesh& mesh, const Project::Params& params = {}) {
   return "no error";
 }
 
+// The room's corners are these, each within a micrometre, in the frame of the mesh.
+void expect_corners(const FloorPlan& plan, const PlanRoom& room, const PlanRing& corners) {
+  EXPECT_EQ(room.polygon.outline.size(), corners.size());
+  EXPECT_TRUE(room.polygon.holes.empty());
+  for (const auto& corner : corners) {
+    double nearest = 1e9;
+    for (const auto& p : room.polygon.outline)
+      nearest = std::min(nearest, (plan.origin.head<2>() + p - corner).cwiseAbs().maxCoeff());
+    EXPECT_LT(nearest, 1e-6) << corner.transpose();
+  }
+}
+
 TEST(Project, TwoRoomsHaveOneWallOfKnownThicknessBetweenThem) {
   std::vector<std::string> warnings;
   const FloorPlan plan = plan_of(two_rooms(), {}, &warnings);
@@ -46,15 +58,97 @@ TEST(Project, TwoRoomsHaveOneWallOfKnownThicknessBetweenThem) {
   EXPECT_NEAR(thick(storey)[0].thickness, 0.12, 1e-9);
   EXPECT_EQ(thick(storey)[0].primitives.size(), 2U);
   EXPECT_NEAR(PlanPolygon({thick(storey)[0].outline, {}}).area(), 0.12 * 3, 1e-6);
-  EXPECT_NEAR(total_area(storey.bodies), 0.12 * 3, 1e-4);
+  EXPECT_NEAR(total_area(storey.bodies), 0.12 * 3, 1e-6);
   EXPECT_NEAR(single_length(storey), 2 * 4 + 3 + 2 * 2.88 + 3, 1e-6);
   ASSERT_EQ(storey.rooms.size(), 2U);
   EXPECT_EQ(storey.rooms[0].name, "Room 1");
-  EXPECT_NEAR(storey.rooms[0].polygon.area(), 12, 12 * 0.002);
-  EXPECT_NEAR(storey.rooms[1].polygon.area(), 8.64, 8.64 * 0.002);
+  expect_corners(plan, storey.rooms[0], {{0, 0}, {4, 0}, {4, 3}, {0, 3}});
+  expect_corners(plan, storey.rooms[1], {{4.12, 0}, {7, 0}, {7, 3}, {4.12, 3}});
   EXPECT_NEAR(storey.rooms[0].height, 2.5, 1e-9);
-  EXPECT_NEAR(total_area(storey.floors), 20.64, 1e-3);
-  EXPECT_NEAR(total_area(storey.ceilings), 20.64, 1e-3);
+  EXPECT_NEAR(total_area(storey.floors), 20.64, 1e-6);
+  EXPECT_NEAR(total_area(storey.ceilings), 20.64, 1e-6);
+}
+
+TEST(Project, RoomsReachToFacesAtReflexCornersAndObliqueWallsToo) {
+  MeshBuilder ell;  // 0.123456 m off whole metres, so that no grid helps
+  const double o = 0.123456;
+  const PlanRing corners{{o, o}, {o + 6, o}, {o + 6, o + 2}, {o + 3, o + 2}, {o + 3, o + 5}, {o, o + 5}};
+  ell.floor(o, o, o + 6, o + 2);
+  ell.floor(o, o + 2, o + 3, o + 5);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    ell.wall(a.x(), a.y(), b.x(), b.y());
+  }
+  const FloorPlan plan = plan_of(ell.mesh);
+  ASSERT_EQ(plan.storeys.at(0).rooms.size(), 1U);
+  expect_corners(plan, plan.storeys[0].rooms[0], corners);
+
+  Mesh turned = ell.mesh;
+  const Eigen::Rotation2Dd turn(0.4);
+  for (auto& v : turned.vertices) v.head<2>() = turn * v.head<2>();
+  PlanRing turned_corners;
+  for (const auto& corner : corners) turned_corners.emplace_back(turn * corner);
+  const FloorPlan oblique = plan_of(turned);
+  ASSERT_EQ(oblique.storeys.at(0).rooms.size(), 1U);
+  expect_corners(oblique, oblique.storeys[0].rooms[0], turned_corners);
+}
+
+TEST(Project, RoomsOnBothSidesOfOneFaceShareItsLine) {
+  MeshBuilder b;
+  b.floor(0, 0, 7, 3);
+  b.wall(0, 0, 7, 0);
+  b.wall(7, 0, 7, 3);
+  b.wall(7, 3, 0, 3);
+  b.wall(0, 3, 0, 0);
+  b.wall(4, 0, 4, 3);
+  const FloorPlan plan = plan_of(b.mesh);
+  ASSERT_EQ(plan.storeys.at(0).rooms.size(), 2U);
+  expect_corners(plan, plan.storeys[0].rooms[0], {{0, 0}, {4, 0}, {4, 3}, {0, 3}});
+  expect_corners(plan, plan.storeys[0].rooms[1], {{4, 0}, {7, 0}, {7, 3}, {4, 3}});
+}
+
+TEST(Project, ACeilingThatIsNotAboveItsFloorLeavesTheHeightUnknown) {
+  for (const double ceiling : {-2.6, 0.0}) {
+    MeshBuilder b;
+    b.room(0, 0, 5, 4, 0, ceiling);
+    std::vector<std::string> warnings;
+    const FloorPlan plan = plan_of(b.mesh, {}, &warnings);
+    ASSERT_FALSE(warnings.empty());
+    EXPECT_NE(warnings[0].find("is not above its floor, at 0.00 m"), std::string::npos) << warnings[0];
+    EXPECT_EQ(plan.storeys.at(0).height, 0);
+    EXPECT_TRUE(plan.storeys[0].floor_known);
+    ASSERT_EQ(plan.storeys[0].rooms.size(), 1U);
+    EXPECT_EQ(plan.storeys[0].rooms[0].height, 0);
+  }
+}
+
+TEST(Project, ARoomUnderACeilingThatIsTooLowIsToldOf) {
+  MeshBuilder b;
+  b.room(0, 0, 5, 4);
+  b.room(5.2, 0, 8, 4, 0, -1);
+  std::vector<std::string> warnings;
+  const FloorPlan plan = plan_of(b.mesh, {}, &warnings);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("1 of the 2 rooms of storey 0"), std::string::npos) << warnings[0];
+  EXPECT_NEAR(plan.storeys.at(0).rooms.at(0).height, 2.5, 1e-9);
+  EXPECT_EQ(plan.storeys[0].rooms.at(1).height, 0);
+}
+
+TEST(Project, WithoutFloorAndWallsElevationAndHeightAreUnknown) {
+  MeshBuilder only_ceiling;
+  only_ceiling.ceiling(0, 0, 5, 4, 2.6);
+  const auto storey = plan_of(only_ceiling.mesh).storeys.at(0);
+  EXPECT_FALSE(storey.floor_known);
+  EXPECT_EQ(storey.height, 0);
+  EXPECT_EQ(storey.rooms.at(0).height, 0);
+
+  MeshBuilder sunken;  // a ceiling below the foot of the walls is not where they stand
+  sunken.wall(0, 0, 5, 0, 1, 3);
+  sunken.ceiling(0, 0, 5, 4, 0.5);
+  const FloorPlan plan = plan_of(sunken.mesh);
+  EXPECT_TRUE(plan.storeys.at(0).floor_known);
+  EXPECT_NEAR(plan.origin.z() + plan.storeys[0].elevation, 1, 1e-9);
+  EXPECT_EQ(plan.storeys[0].height, 0);
 }
 
 TEST(Project, SingleFacesAreSeenFromTheirLeft) {
@@ -200,7 +294,7 @@ TEST(Project, ATiltedModelIsTurnedUprightAboutItsOrigin) {
   const FloorPlan plan = plan_of(mesh);
   const auto storey = plan.storeys.at(0);
   ASSERT_EQ(storey.rooms.size(), 2U);
-  EXPECT_NEAR(storey.rooms[0].polygon.area(), 12, 12 * 0.002);
+  EXPECT_NEAR(storey.rooms[0].polygon.area(), 12, 1e-5);
   EXPECT_NEAR(thick(storey).at(0).thickness, 0.12, 1e-6);
   EXPECT_NEAR((plan.to_plan.rotation * plan.origin + plan.to_plan.translation - plan.origin).norm(), 0, 1e-6);
   EXPECT_NEAR((plan.to_plan.rotation * (tilt * Eigen::Vector3d::UnitZ())).z(), 1, 1e-9);

@@ -107,6 +107,27 @@ TEST_F(Geojson, CoordinatesKeepTheirOffsetsToTheMillimetre) {
   EXPECT_TRUE(found);
 }
 
+TEST_F(Geojson, RoomsHaveTheCornersOfTheirFaces) {
+  MeshBuilder b;
+  b.room(0, 0, 5, 4, 0, 2.6);
+  const json room = write(plan_of(b.mesh))["features"][0];
+  EXPECT_EQ(room["properties"]["area_m2"], 20.0);
+  EXPECT_EQ(room["geometry"]["coordinates"],
+            json::parse("[[[0.0, 0.0], [5.0, 0.0], [5.0, 4.0], [0.0, 4.0], [0.0, 0.0]]]"));
+}
+
+TEST_F(Geojson, WhatIsNotKnownIsNull) {
+  MeshBuilder only_ceiling, upside_down;
+  only_ceiling.ceiling(0, 0, 5, 4, 2.6);
+  upside_down.room(0, 0, 5, 4, 0, -2.6);
+  const json floorless = write(plan_of(only_ceiling.mesh))["features"][0]["properties"];
+  EXPECT_TRUE(floorless["height_m"].is_null());
+  EXPECT_TRUE(floorless["elevation_m"].is_null());
+  const json upside = write(plan_of(upside_down.mesh))["features"][0]["properties"];
+  EXPECT_TRUE(upside["height_m"].is_null());
+  EXPECT_EQ(upside["elevation_m"], 0.0);
+}
+
 TEST_F(Geojson, TheReferenceSystemIsNamedOnlyIfGiven) {
   EXPECT_FALSE(write(plan_of(two_rooms())).contains("crs"));
   WriteGeojson::Params params;

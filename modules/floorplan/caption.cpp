@@ -1,0 +1,31 @@
+#include "modules/floorplan/caption.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "modules/floorplan/fitted_text.hpp"
+
+namespace atrium::floorplan {
+
+double Caption::name_width() const { return font_width(name, name_size, true); }
+
+double Caption::width() const {
+  if (stacked) return std::max({name_width(), font_width(level, size), font_width(content, size)});
+  return name_width() + 3 + font_width(about(), size);
+}
+
+Caption caption_of(const PlanStorey& storey, double origin_z) {
+  Caption caption;
+  caption.name = fmt::format("Storey {}", storey.index);
+  caption.level =
+      storey.floor_known ? fmt::format("floor at {:.2f} m", origin_z + storey.elevation) : "elevation unknown";
+  caption.level += storey.height > 0 ? fmt::format(" \u00B7 height {:.2f} m", storey.height) : " \u00B7 height unknown";
+  double area = 0;
+  for (const auto& room : storey.rooms) area += room.polygon.area();
+  caption.content = fmt::format("{} {} \u00B7 {:.2f} m\u00B2", storey.rooms.size(),
+                                storey.rooms.size() == 1 ? "room" : "rooms", area);
+  return caption;
+}
+
+}  // namespace atrium::floorplan

@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+
+#include "modules/types/floor_plan.hpp"
+
+namespace atrium::floorplan {
+
+/// What stands above a storey's drawing: in one line, or `stacked` in three. Millimetres of paper.
+struct Caption {
+  std::string name;  ///< "Storey 2"
+  std::string level, content;
+  bool stacked = false;
+
+  static constexpr double name_size = 3.4, size = 2.6;  ///< of the fonts
+  static constexpr double line = 4;                     ///< from one line to the next
+  double name_width() const;
+  /// Of the rest, as it stands in one line.
+  std::string about() const { return level + " \u00B7 " + content; }
+  double width() const;
+  double height() const { return stacked ? 9 + 2 * line : 9; }
+};
+
+/// Of a storey whose elevation counts from `origin_z`, in one line.
+Caption caption_of(const PlanStorey& storey, double origin_z);
+
+}  // namespace atrium::floorplan
