@@ -77,6 +77,15 @@ vtkSmartPointer<vtkPoints> points_of(const std::vector<Eigen::Vector3f>& places,
   return points;
 }
 
+/// By primitive.
+std::map<std::int32_t, const FaceTexture*> images_of(const Textures* textures) {
+  std::map<std::int32_t, const FaceTexture*> images;
+  if (textures != nullptr)
+    for (const auto& face : textures->faces)
+      if (face.primitive >= 0) images[face.primitive] = &face;
+  return images;
+}
+
 /// The triangles of a mesh, sorted into those that are drawn with an image and the rest.
 struct Sorted {
   vtkNew<vtkCellArray> plain;
@@ -162,17 +171,11 @@ void Drawing::add_mesh(const Mesh& mesh, const MeshStyle& style, const Textures*
   std::vector<Eigen::Vector3f> places;
   places.reserve(mesh.vertices.size());
   for (const auto& v : mesh.vertices) places.push_back(impl_->place(v, shift));
-  std::map<std::int32_t, const FaceTexture*> images;
-  if (textures != nullptr)
-    for (const auto& face : textures->faces)
-      if (face.primitive >= 0) images[face.primitive] = &face;
+  const auto images = images_of(textures);
   Sorted sorted;
   sort_triangles(mesh, style, images, impl_->classes, sorted);
-  std::vector<std::array<Eigen::Vector3f, 3>> corners;
-  corners.reserve(sorted.drawn.size());
-  for (const auto& [a, b, c] : sorted.drawn) corners.push_back({places[a], places[b], places[c]});
-  if (corners.empty()) return;
-  impl_->box.extend(drawn_box(corners));
+  if (sorted.drawn.empty()) return;
+  impl_->box.extend(drawn_box(places, sorted.drawn));
   const auto points = points_of(places, sorted.drawn);
 
   const auto add = [&](vtkCellArray* cells) {
@@ -184,9 +187,9 @@ void Drawing::add_mesh(const Mesh& mesh, const MeshStyle& style, const Textures*
   };
   for (const auto& [primitive, cells] : sorted.textured) {
     const auto data = add(cells);
-    data->GetPointData()->SetTCoords(places_on(*images[primitive], mesh, mesh.origin - textures->origin));
+    data->GetPointData()->SetTCoords(places_on(*images.at(primitive), mesh, mesh.origin - textures->origin));
     auto* actor = impl_->add(data, false);
-    actor->SetTexture(texture_of(*images[primitive]));
+    actor->SetTexture(texture_of(*images.at(primitive)));
     style_surface(actor, true);
     actor->GetProperty()->SetBackfaceCulling(style.inside ? 1 : 0);
   }

@@ -24,15 +24,17 @@ double area_quantile(std::vector<std::pair<double, double>> values, double share
 
 }  // namespace
 
-Eigen::AlignedBox3d drawn_box(const std::vector<std::array<Eigen::Vector3f, 3>>& triangles) {
+Eigen::AlignedBox3d drawn_box(const std::vector<Eigen::Vector3f>& vertices,
+                              const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   Eigen::AlignedBox3d whole;
   std::vector<Eigen::AlignedBox3d> boxes(triangles.size());
   std::vector<double> areas(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (const auto& corner : triangles[t]) boxes[t].extend(corner.cast<double>());
+    std::array<Eigen::Vector3d, 3> corner;
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = vertices[triangles[t][k]].cast<double>();
+    for (const auto& place : corner) boxes[t].extend(place);
     whole.extend(boxes[t]);
-    const Eigen::Vector3d a = triangles[t][0].cast<double>();
-    areas[t] = (triangles[t][1].cast<double>() - a).cross(triangles[t][2].cast<double>() - a).norm() / 2;
+    areas[t] = (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm() / 2;
   }
   const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
   if (!(total > 0)) return whole;

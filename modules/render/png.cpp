@@ -68,6 +68,7 @@ Picture read_png(const std::filesystem::path& path) {
                     std::to_string(image.png.height) + " pixels",
                 "at most " + std::to_string(most_pixels / 1000000) + " million pixels can be read");
   image.png.format = PNG_FORMAT_RGB;
+  image.png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // unless the file says otherwise
   Picture picture;
   picture.width = static_cast<std::int32_t>(image.png.width);
   picture.height = static_cast<std::int32_t>(image.png.height);

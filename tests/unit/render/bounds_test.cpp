@@ -102,15 +102,24 @@ TEST(Bounds, AFewSmallTrianglesFarAwayDoNotMakeTheBuildingAPoint) {
 }
 
 TEST(Bounds, WhatIsNearOrLargeCounts) {
-  using Triangle = std::array<Eigen::Vector3f, 3>;
-  const auto at = [](float x, float size) {
-    return Triangle{Eigen::Vector3f(x, 0, 0), Eigen::Vector3f(x + size, 0, 0), Eigen::Vector3f(x, size, 0)};
+  /// The right end of the box of triangles (left corner, size).
+  const auto right_end = [](const std::vector<std::pair<float, float>>& triangles) {
+    std::vector<Eigen::Vector3f> vertices;
+    std::vector<std::array<std::uint32_t, 3>> corners;
+    for (const auto& [x, size] : triangles) {
+      const auto first = static_cast<std::uint32_t>(vertices.size());
+      corners.push_back({first, first + 1, first + 2});
+      for (const Eigen::Vector3f& v :
+           {Eigen::Vector3f(x, 0, 0), Eigen::Vector3f(x + size, 0, 0), Eigen::Vector3f(x, size, 0)})
+        vertices.push_back(v);
+    }
+    return drawn_box(vertices, corners).max().x();
   };
-  EXPECT_TRUE(drawn_box({}).isEmpty());
-  EXPECT_DOUBLE_EQ(drawn_box({at(0, 10), at(13, 0.125F)}).max().x(), 13.125) << "small, but near";
-  EXPECT_DOUBLE_EQ(drawn_box({at(0, 10), at(500, 0.125F)}).max().x(), 10) << "small and far";
-  EXPECT_DOUBLE_EQ(drawn_box({at(0, 10), at(500, 2)}).max().x(), 502) << "far, but not small";
-  EXPECT_DOUBLE_EQ(drawn_box({at(0, 0), at(500, 0)}).max().x(), 500) << "no area at all";
+  EXPECT_TRUE(drawn_box({}, {}).isEmpty());
+  EXPECT_DOUBLE_EQ(right_end({{0, 10}, {13, 0.125F}}), 13.125) << "small, but near";
+  EXPECT_DOUBLE_EQ(right_end({{0, 10}, {500, 0.125F}}), 10) << "small and far";
+  EXPECT_DOUBLE_EQ(right_end({{0, 10}, {500, 2}}), 502) << "far, but not small";
+  EXPECT_DOUBLE_EQ(right_end({{0, 0}, {500, 0}}), 500) << "no area at all";
 }
 
 TEST(Bounds, AFlatCloudIsDrawnWhole) {

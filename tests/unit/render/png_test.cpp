@@ -54,6 +54,14 @@ TEST(Png, OtherKindsAreConverted) {
   write(folder / "deep.png", PNG_FORMAT_LINEAR_RGB, deep.data());
   EXPECT_EQ(read_png(folder / "deep.png").pixels,
             (std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0, 0, 0, 0, 0, 0, 255}));
+  // Half of the way up, of a file that does not say how its values are meant: as those of 8 bits are.
+  deep.fill(0x8080);
+  write(folder / "deep.png", PNG_FORMAT_LINEAR_RGB, deep.data());
+  std::string bytes = test::read_text(folder / "deep.png");
+  for (const auto& [chunk, size] : {std::pair{"gAMA", 16}, std::pair{"cHRM", 44}})
+    if (const auto at = bytes.find(chunk); at != std::string::npos) bytes.erase(at - 4, static_cast<std::size_t>(size));
+  test::write_text(folder / "plain.png", bytes);
+  EXPECT_EQ(read_png(folder / "plain.png").pixels, std::vector<std::uint8_t>(12, 128));
 }
 
 TEST(Png, WhereverItIsCutItIsAnError) {
