@@ -25,7 +25,8 @@ Region dividers(const PlanStorey& storey, const std::vector<WallFace>& faces, do
 // The part of `open` given back what the dividers took: its edges stand on the faces themselves, and the slits that
 // dividers cut at reflex corners are gone. It keeps to what is `free`.
 Region given_back(const PlanPolygon& part, const Region& free) {
-  return common(grown(grown({part}, 2 * thin), -thin), free);
+  const Region whole = common(grown(grown({part}, 2 * thin), -thin), free);
+  return grown(grown(whole, -thin), thin);  // without what runs into cracks between walls
 }
 
 }  // namespace
