@@ -178,7 +178,7 @@ class Collapse {
   }
   Vector3d free_place(const QuadricError& sum, std::uint32_t u, std::uint32_t v) const {
     const Vector3d middle = (places_[u] + places_[v]) / 2;
-    const Vector3d best = sum.least(middle, 1e-6);
+    Vector3d best = sum.least(middle, 1e-6);
     if ((best - middle).norm() <= (places_[u] - places_[v]).norm()) return best;
     Vector3d place = middle;
     for (const auto& p : {places_[u], places_[v]})
