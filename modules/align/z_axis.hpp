@@ -12,7 +12,7 @@ namespace atrium::align {
 /// of the printed algorithm are the same; this is what they must mean. Equal lists count as D, as printed.
 ///
 /// Rotates about the frame's zero; coordinates near zero stay there, since a value's origin moves and its local
-/// coordinates only turn. Error: no plane qualifies (z is not roughly up).
+/// coordinates only turn. Errors: no plane qualifies (`up` is not roughly up); an `up` without direction.
 struct ZAxis {
   static constexpr std::string_view type = "align.z_axis";
   static constexpr std::string_view summary = "Turns the scene until its largest floor or ceiling is horizontal.";
@@ -26,9 +26,10 @@ struct ZAxis {
   };
   struct Params {
     double min_vertical = 0.6;
+    std::vector<double> up{0, 0, 1};
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::planes, "planes", "Primitives, z roughly up."),
+      std::tuple{port(&In::planes, "planes", "Primitives; `up` is roughly up."),
                  port(&In::transform, "transform", "What earlier alignments did to them: input frame to their frame.")};
   static constexpr auto outputs =
       std::tuple{port(&Out::planes, "planes", "The primitives and their cloud, z up."),
@@ -36,7 +37,11 @@ struct ZAxis {
   static constexpr auto params = std::tuple{
       param(&Params::min_vertical, "min_vertical", unitless, within(0.0, 1.0),
             "Least |c|, the vertical component of a plane's unit normal, for it to count as roughly horizontal (paper, "
-            "Algorithm 1: |c| ≥ 0.6, a tilt of 53 degrees at most).")};
+            "Algorithm 1: |c| ≥ 0.6, a tilt of 53 degrees at most)."),
+      param(
+          &Params::up, "up", unitless, unbounded,
+          "What points roughly upwards in the input's frame, of any length above 0: [0, 0, 1] is the paper's; a depth "
+          "camera's is [0, -1, 0], that of many phone apps [0, 1, 0]. c is the component along it.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

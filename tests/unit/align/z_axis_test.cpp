@@ -37,6 +37,19 @@ TEST(AlignZAxis, UndoesATilt) {
   }
 }
 
+TEST(AlignZAxis, TakesAnotherAxisForUp) {
+  Context context;
+  const PlanePrimitives room = test::box_room().planes();
+  Transform camera;  // y down, z forward
+  camera.rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  const auto scan = input(transformed(transformed(room, pose(23, 4)), camera));
+  EXPECT_THROW(ZAxis::run({scan, {}}, {.up = {0, 0, 0}}, context), Error);
+  const auto out = ZAxis::run({scan, {}}, {.up = {0, -2, 0}}, context);
+  for (std::size_t i = 0; i < room.primitives.size(); ++i)
+    EXPECT_NEAR(out.planes.primitives[i].plane.normal.z(), room.primitives[i].plane.normal.z(), 1e-9);
+  EXPECT_NEAR(out.transform.rotation.determinant(), 1, 1e-12);
+}
+
 TEST(AlignZAxis, TheLargerListDecidesNotTheLargerPlane) {
   Context context;
   test::Rooms rooms;

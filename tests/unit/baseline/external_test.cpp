@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include "tests/unit/baseline/meshes.hpp"
 
@@ -158,10 +159,14 @@ TEST_F(BaselineExternal, TheTimeLimitEndsTheWholeGroup) {
   EXPECT_TRUE(contains(problem(params), "time limit of 0.3 s"));
   const int child = std::stoi(log());
   ASSERT_GT(child, 1);
-  std::ifstream state("/proc/" + std::to_string(child) + "/stat");
-  std::string number, name, letter;
-  state >> number >> name >> letter;
-  EXPECT_TRUE(!state || letter == "Z" || name != "(sleep)");
+  const auto alive = [&] {
+    std::ifstream state("/proc/" + std::to_string(child) + "/stat");
+    std::string number, name, letter;
+    state >> number >> name >> letter;
+    return state && letter != "Z" && name == "(sleep)";
+  };
+  for (int i = 0; alive() && i < 1000; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_FALSE(alive());
 }
 
 TEST_F(BaselineExternal, WhoIgnoresTheFirstSignalIsKilled) {
