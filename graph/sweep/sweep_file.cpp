@@ -277,7 +277,7 @@ class Reader {
     if (of != nullptr) {
       set_fact(metric, scalar(*of));
     } else {
-      metric.kind = seconds != nullptr ? SweepMetric::Kind::seconds : SweepMetric::Kind::memory;
+      metric.kind = seconds != nullptr ? SweepMetric::Kind::time : SweepMetric::Kind::memory;
       const auto* cost = seconds != nullptr ? seconds : memory;
       if (!cost->value.is_null()) metric.node = scalar(*cost);
       if (metric.node == "all") metric.node.clear();

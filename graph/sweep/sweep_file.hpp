@@ -33,7 +33,7 @@ struct SweepAxis {
 /// A column of the table: `NAME: OUTPUT.METRIC`, `NAME: OUTPUT`, or `NAME: {of: …, unit: …, digits: …}`; or what the
 /// variant cost: `NAME: {seconds: NODE}` and `{memory: NODE}` (a node, or all of a sub-pipeline).
 struct SweepMetric {
-  enum class Kind { fact, seconds, memory };
+  enum class Kind { fact, time, memory };
   std::string name;
   Kind kind = Kind::fact;
   std::string output, fact;  ///< of kind fact

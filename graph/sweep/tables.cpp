@@ -67,7 +67,7 @@ Shown cost_of(const SweepMetric& metric, const VariantResult& result) {
     seconds += node.wall;
     memory = std::max(memory, static_cast<double>(node.peak_memory));
   }
-  const bool time = metric.kind == SweepMetric::Kind::seconds;
+  const bool time = metric.kind == SweepMetric::Kind::time;
   const auto [shown, unit] = converted(time ? seconds : memory, time ? "s" : "B", metric.unit);
   return {{shown, {}}, unit, true};
 }
@@ -88,7 +88,7 @@ std::vector<SweepMetric> metrics_of(const SweepFile& sweep, const std::vector<Va
       }
   SweepMetric seconds;
   seconds.name = "seconds";
-  seconds.kind = SweepMetric::Kind::seconds;
+  seconds.kind = SweepMetric::Kind::time;
   metrics.push_back(std::move(seconds));
   return metrics;
 }
