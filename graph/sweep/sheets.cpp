@@ -15,9 +15,9 @@ std::int64_t columns_of(const SweepFile& sweep, const SweepSheet& sheet) {
   return 1;
 }
 
-void set(PipelineNode& node, std::string_view name, ParamValue value) {
+void set(PipelineNode& node, std::string_view name, const ParamValue& value) {
   for (std::size_t i = 0; i < node.params.size(); ++i)
-    if (node.type->params[i].name == name) node.params[i] = std::move(value);
+    if (node.type->params[i].name == name) node.params[i] = value;
 }
 
 PipelineNode make_node(const std::string& path, const NodeType& type) {
