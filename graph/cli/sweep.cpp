@@ -108,10 +108,8 @@ int print_results(const Options& options, const SweepFile& sweep, const SweepPla
   }
   std::vector<std::string> unknown;
   full_table(sweep, plan, result.variants, &unknown);
-  for (const auto& name : unknown)
-    fmt::print(stderr,
-               "atrium: error: no variant has the metric '{}'\n  help: the names are in variants/*/result.json\n",
-               name);
+  for (const auto& problem : unknown)
+    fmt::print(stderr, "atrium: error: {}\n  help: the names are in variants/*/result.json\n", problem);
   std::size_t failures = 0;
   std::size_t cancelled = 0;
   for (const auto& variant : result.variants) {

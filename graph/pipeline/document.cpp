@@ -19,6 +19,10 @@ class Reader {
   Reader(Document& document, Findings& findings) : document_(document), findings_(findings) {}
 
   void read(const YamlNode& root) {
+    if (const auto* sweep = root.find("sweep"); sweep != nullptr && root.find("nodes") == nullptr) {
+      error(sweep->place, "this is a sweep file, not a pipeline", "atrium sweep plan FILE, atrium sweep run FILE");
+      return;
+    }
     check_keys(root, {"atrium", "summary", "seed", "versions", "vars", "inputs", "nodes", "outputs"},
                "a pipeline file");
     read_format(root);

@@ -40,8 +40,8 @@ std::string result_json(const std::filesystem::path& folder, const SweepFile& sw
 std::optional<VariantResult> reusable_result(const std::filesystem::path& folder, const SweepPlan& plan,
                                              const SweepVariant& variant, const std::string& build);
 
-/// One row per variant: what it differs in, the metrics, what it cost; in full precision. `unknown` gets the metrics
-/// that no variant has.
+/// One row per variant: what it differs in, the metrics, what it cost; in full precision. `unknown` gets what is
+/// wrong with metrics that no variant has.
 Table full_table(const SweepFile& sweep, const SweepPlan& plan, const std::vector<VariantResult>& results,
                  std::vector<std::string>* unknown = nullptr);
 

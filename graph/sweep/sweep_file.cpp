@@ -32,6 +32,11 @@ class Reader {
   Reader(SweepFile& sweep, Findings& findings) : sweep_(sweep), findings_(findings) {}
 
   void read(const YamlNode& root) {
+    if (const auto* nodes = root.find("nodes"); nodes != nullptr && root.find("sweep") == nullptr) {
+      error(nodes->place, "this is a pipeline, not a sweep file",
+            "atrium run FILE; a sweep file names the pipeline that it varies: `sweep: FILE`");
+      return;
+    }
     check_keys(root,
                {"atrium", "sweep", "summary", "set", "scenes", "seeds", "grid", "zip", "list", "ablate", "random",
                 "exclude", "metrics", "pictures"},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "graph/api/suggest.hpp"
 #include "graph/sweep/result.hpp"
 
 namespace atrium {
@@ -185,6 +186,22 @@ std::vector<std::vector<std::size_t>> groups_of(const SweepFile& sweep, const Sw
   return groups;
 }
 
+/// "no variant has the metric 'faces' (faces.triangles); did you mean 'faces.faces.triangles'?"
+std::string unknown_metric(const SweepMetric& metric, const std::vector<VariantResult>& results) {
+  std::vector<std::string> names;
+  for (const auto& result : results)
+    for (const auto& output : result.outputs)
+      for (const auto& fact : output.facts) {
+        if (output.name == metric.output) names.push_back(fact.name);
+      }
+  const std::string near = nearest(metric.fact, names);
+  const auto longer = std::find_if(names.begin(), names.end(),
+                                   [&](const std::string& name) { return name.ends_with("." + metric.fact); });
+  const std::string meant = longer != names.end() ? *longer : near;
+  return fmt::format("no variant has the metric '{}' ({}.{}){}", metric.name, metric.output, metric.fact,
+                     meant.empty() ? "" : fmt::format("; did you mean '{}.{}'?", metric.output, meant));
+}
+
 /// What a group's cell says: the mean over the variants that are done, and how many failed.
 std::string group_cell(const std::vector<std::size_t>& group, std::size_t metric, const Numbers& numbers,
                        const std::vector<VariantResult>& results) {
@@ -223,7 +240,7 @@ Table full_table(const SweepFile& sweep, const SweepPlan& plan, const std::vecto
       done = done || results[v].status == NodeStatus::ok;
       found = found || numbers.cells[v][m].found;
     }
-    if (done && !found) unknown->push_back(numbers.metrics[m].name);
+    if (done && !found) unknown->push_back(unknown_metric(numbers.metrics[m], results));
   }
   return table;
 }

@@ -185,11 +185,11 @@ External::Out External::run(const In& in, const Params& params, Context& context
   check_command(in, params.command);
   const Eigen::Vector3d origin = common_origin(in);
   const TemporaryFolder folder;
-  Context inner(context.seed(), std::make_shared<FolderHost>(folder.path(), context));
+  Context inner(1, std::make_shared<FolderHost>(folder.path(), context));
   const auto files = write_inputs(in, params, folder.path(), inner);
 
   ChildProcess child{params.command, folder.path(), folder.path() / "log", params.time_limit, params.memory_limit};
-  for (std::size_t i = 1; i < child.arguments.size(); ++i) child.arguments[i] = filled(child.arguments[i], files);
+  for (auto& argument : child.arguments) argument = filled(argument, files);
   ChildResult result;
   try {
     result = run_child(child, context);

@@ -60,5 +60,22 @@ TEST(Comparisons, ThePapersMethodIsScoredOnASimulatedRoom) {
   EXPECT_TRUE(fs::exists(folder / "out/sheet.png"));
 }
 
+TEST(Comparisons, AnExternalProgramJoinsAPipeline) {
+  const TemporaryFolder folder;
+  write_text(folder / "copy.yaml", R"(atrium: 1
+nodes:
+  room: {type: synth.room}
+  scan: {type: synth.scan, in: {scene: room.scene}, params: {points: 1000}}
+  copy: {type: baseline.external, in: {mesh: scan.mesh}, params: {command: [cp, "{mesh}", "{output}"]}}
+  faces: {type: metric.faces, in: {mesh: copy.mesh}}
+  truth: {type: metric.faces, in: {mesh: scan.mesh}}
+outputs: {copy: faces.metrics, truth: truth.metrics}
+)");
+  const auto result = atrium({"run", (folder / "copy.yaml").string(), "--out", (folder / "out").string(), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto outputs = nlohmann::json::parse(result.out).at("outputs");
+  EXPECT_EQ(outputs.at("copy").at("faces.triangles"), outputs.at("truth").at("faces.triangles"));
+}
+
 }  // namespace
 }  // namespace atrium::test

@@ -226,10 +226,20 @@ INSTANTIATE_TEST_SUITE_P(
                 "'second.value' is not drawn from a distribution"},
         Mistake{"units", "random: {samples: 2, of: {second.value: {uniform: [1 cm, 1 m]}}}\n",
                 "has bounds in different units"},
+        Mistake{"pipeline", "nodes: {}\n", "unknown key 'nodes' in a sweep file"},
         Mistake{"sheet", "pictures: {../a.png: b.png}\n", "'../a.png' cannot be the file of a sheet"},
         Mistake{"sheet_name", "pictures: {table.csv: b.png}\n", "'table.csv' cannot be the file of a sheet"},
         Mistake{"base", "grid: {}\n", "'grid' must be a mapping that is not empty"}),
     [](const auto& mistake) { return mistake.param.name; });
+
+TEST_F(Sweep, FilesOfTheOtherKindAreToldApart) {
+  sweep("grid: {second.value: [2, 3]}\n");
+  EXPECT_NE(atrium({"run", "base.yaml"}).err.find("this is a pipeline, not a sweep file"), std::string::npos);
+  ProcessOptions options;
+  options.folder = folder.path();
+  const auto check = run_process({ATRIUM_PROGRAM, "check", "s.yaml"}, options);
+  EXPECT_NE(check.err.find("this is a sweep file, not a pipeline"), std::string::npos) << check.err;
+}
 
 TEST_F(Sweep, AMetricThatNoVariantHasIsAnError) {
   sweep("metrics: {sum: number.nothing}\n");
