@@ -2,7 +2,6 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -185,13 +184,16 @@ std::string Registry::build() const {
           name.starts_with("libatrium") && name.find(suffix) != std::string::npos)
         files.insert(std::filesystem::canonical(entry.path(), ignored));
   }
-  std::string hashes = ATRIUM_STAMP;
+  ContentHash hash;
+  const auto add = [&](std::string_view text) { hash.bytes(text.data(), text.size()); };
+  add(ATRIUM_STAMP);
   for (const auto& file : files) {
     std::ifstream stream(file, std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-    hashes += fmt::format(";{}:{:016x}", file.filename().string(), XXH3_64bits(bytes.data(), bytes.size()));
+    add(fmt::format(";{}:{}:", file.filename().string(), bytes.size()));
+    add(bytes);
   }
-  return fmt::format("{:016x}", XXH3_64bits(hashes.data(), hashes.size()));
+  return hash.hex();
 }
 
 std::vector<std::string> Registry::modules() const {

@@ -1,7 +1,6 @@
 #include "graph/sweep/plan.hpp"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <set>
@@ -16,8 +15,9 @@ constexpr std::size_t most_variants = 100'000;
 constexpr std::size_t most_errors = 100;
 
 std::string hash_of(const std::string& text) {
-  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  ContentHash hash;
+  hash.bytes(text.data(), text.size());
+  return hash.hex();
 }
 
 /// Whether the chosen values fulfil all conditions of one `exclude`.

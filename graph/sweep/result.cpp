@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <xxhash.h>
 
 #include <cmath>
 #include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 namespace atrium {
@@ -28,13 +26,11 @@ Json fingerprint(const std::string& path) {
 std::string hash_of_file(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return {};
-  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
-  XXH3_128bits_reset(state.get());
+  ContentHash hash;
   std::vector<char> buffer(1U << 20U);
   while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || file.gcount() > 0)
-    XXH3_128bits_update(state.get(), buffer.data(), static_cast<std::size_t>(file.gcount()));
-  const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+    hash.bytes(buffer.data(), static_cast<std::size_t>(file.gcount()));
+  return hash.hex();
 }
 
 Json inputs_of(const SweepPlan& plan, const SweepVariant& variant) {

@@ -360,9 +360,4 @@ std::unique_ptr<SweepFile> read_sweep(const std::filesystem::path& path, const s
   return sweep;
 }
 
-bool is_sweep_file(const std::filesystem::path& path) {
-  const YamlTree tree = read_yaml(path.string());
-  return tree.root && tree.root->is_mapping() && tree.root->find("sweep") != nullptr;
-}
-
 }  // namespace atrium

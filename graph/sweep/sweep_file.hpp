@@ -84,7 +84,4 @@ struct SweepFile {
 ///   pictures: {sheet.png: picture.png}
 std::unique_ptr<SweepFile> read_sweep(const std::filesystem::path& path, const std::string& name, Findings& findings);
 
-/// Whether the file is a sweep file rather than a pipeline: it has the key `sweep`.
-bool is_sweep_file(const std::filesystem::path& path);
-
 }  // namespace atrium

@@ -23,7 +23,8 @@ namespace atrium::metric {
 /// - self_intersections.crossing: pairs of faces whose insides cross; .deep: by more than `depth` (the least reach of
 ///   either face beyond the other's plane); .overlapping: pairs in exactly one plane whose insides share area, other
 ///   than duplicates; .faces: how many faces take part. Faces that only touch (a T-junction, a wall that stands on the
-///   middle of a floor) do not intersect: boundary edges tell of them.
+///   middle of a floor) do not intersect: boundary edges tell of them. Where closed solids pass through each other
+///   exactly along edges that lie in the other's faces, nothing tells: they count as watertight.
 /// - components: of faces that hang together over edges; .closed: those without boundary edges; .watertight: those that
 ///   are closed and without non-manifold edges or vertices, misoriented edges, duplicates and intersections;
 ///   .closed_area: share of the area that closed ones have.
