@@ -54,6 +54,16 @@ Json node_json(const NodeRecord& node, const NodeType& type) {
   return json;
 }
 
+Json facts_json(const std::vector<Fact>& facts) {
+  Json json = Json::array();
+  for (const auto& fact : facts) {
+    Json& entry = json.emplace_back(Json{{"name", fact.name}});
+    std::visit([&](const auto& value) { entry["value"] = value; }, fact.value);
+    if (!fact.unit.empty()) entry["unit"] = fact.unit;
+  }
+  return json;
+}
+
 Json pipeline_outputs(const Pipeline& pipeline, const RunResult& result) {
   Json outputs = Json::object();
   for (const auto& output : pipeline.outputs) {
@@ -62,6 +72,8 @@ Json pipeline_outputs(const Pipeline& pipeline, const RunResult& result) {
     Json json{{"from", node.node + "." + port.name}, {"type", port.type}};
     if (node.status == NodeStatus::ok && !node.outputs[output.from.output].hash.empty())
       json["hash"] = node.outputs[output.from.output].hash;
+    if (node.status == NodeStatus::ok && !node.facts[output.from.output].empty())
+      json["facts"] = facts_json(node.facts[output.from.output]);
     outputs[output.name] = std::move(json);
   }
   return outputs;

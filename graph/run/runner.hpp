@@ -94,6 +94,8 @@ class ProgressSink {
   virtual void progress(const std::string& /*node*/, double /*share*/) {}
   /// Of every node, also of one that was never started. Valid during the call only.
   virtual void finished(const NodeRecord& /*node*/) {}
+  /// Of every node that is ok, after `finished`, when its outputs are sized and hashed.
+  virtual void described(const NodeRecord& /*node*/) {}
   virtual void message(const std::string& /*node*/, std::string_view /*text*/, bool /*warning*/) {}
 };
 

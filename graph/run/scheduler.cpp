@@ -174,6 +174,7 @@ void Scheduler::describe(std::size_t n, const std::vector<Value>& outputs) {
     record.outputs.push_back(std::move(output));
   }
   record.hash_wall = wall_seconds() - start_ - record.hash_start;
+  progress_.described(record);
 }
 
 Scheduler::Inputs Scheduler::inputs_of(std::size_t n) const {

@@ -22,6 +22,18 @@ Json fingerprint(const std::string& path) {
           {"changed", fmt::format("{}.{:09}", info.st_mtim.tv_sec, info.st_mtim.tv_nsec)}};
 }
 
+Json node_json(const VariantResult::Node& node) {
+  Json json{{"node", node.path},         {"type", node.type},       {"status", name_of(node.status)},
+            {"wall_seconds", node.wall}, {"cpu_seconds", node.cpu}, {"peak_memory", node.peak_memory}};
+  json["outputs"] = Json::array();
+  for (const auto& output : node.outputs) {
+    Json described{{"port", output.port}, {"type", output.type}, {"bytes", output.bytes}};
+    if (!output.hash.empty()) described["hash"] = output.hash;
+    json["outputs"].push_back(std::move(described));
+  }
+  return json;
+}
+
 /// "" if it cannot be read.
 std::string hash_of_file(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -77,10 +89,16 @@ NodeStatus read_status(const std::string& text) {
 VariantResult read_result(const Json& json) {
   VariantResult result;
   result.status = read_status(json.at("status").get<std::string>());
-  for (const auto& node : json.at("nodes"))
+  for (const auto& node : json.at("nodes")) {
+    std::vector<OutputRecord> outputs;
+    for (const auto& output : node.at("outputs"))
+      outputs.push_back({output.at("port").get<std::string>(), output.at("type").get<std::string>(),
+                         output.at("bytes").get<std::uint64_t>(), output.value("hash", "")});
     result.nodes.push_back({node.at("node").get<std::string>(), node.at("type").get<std::string>(),
                             read_status(node.at("status").get<std::string>()), node.at("wall_seconds").get<double>(),
-                            node.at("cpu_seconds").get<double>(), node.at("peak_memory").get<std::uint64_t>()});
+                            node.at("cpu_seconds").get<double>(), node.at("peak_memory").get<std::uint64_t>(),
+                            std::move(outputs)});
+  }
   for (const auto& output : json.at("outputs")) {
     auto& facts = result.outputs.emplace_back(VariantResult::Output{output.at("name").get<std::string>(), {}}).facts;
     for (const auto& fact : output.at("facts")) facts.push_back(read_fact(fact));
@@ -116,13 +134,7 @@ std::string result_json(const fs::path& folder, const SweepFile& sweep, const Sw
     json["artefacts"].push_back(
         {{"path", artefact.path}, {"bytes", artefact.bytes}, {"hash", hash_of_file(folder / artefact.path)}});
   json["nodes"] = Json::array();
-  for (const auto& node : result.nodes)
-    json["nodes"].push_back({{"node", node.path},
-                             {"type", node.type},
-                             {"status", name_of(node.status)},
-                             {"wall_seconds", node.wall},
-                             {"cpu_seconds", node.cpu},
-                             {"peak_memory", node.peak_memory}});
+  for (const auto& node : result.nodes) json["nodes"].push_back(node_json(node));
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

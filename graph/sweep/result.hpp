@@ -17,6 +17,7 @@ struct VariantResult {
     NodeStatus status = NodeStatus::cancelled;
     double wall = 0, cpu = 0;
     std::uint64_t peak_memory = 0;
+    std::vector<OutputRecord> outputs;
   };
   struct Output {
     std::string name;

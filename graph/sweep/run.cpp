@@ -24,6 +24,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What the sweep is of, for programs that read its folder: axes with the labels of their choices in order, and what
+/// each sets; metrics with the digits that they are shown with.
+std::string sweep_json(const SweepFile& sweep) {
+  using Json = nlohmann::ordered_json;
+  Json json{{"atrium", framework_version()}, {"sweep", sweep.path.string()}, {"base", sweep.base.string()}};
+  if (!sweep.summary.empty()) json["summary"] = sweep.summary;
+  json["axes"] = Json::array();
+  for (const auto& axis : sweep.axes) {
+    Json choices = Json::array();
+    for (const auto& choice : axis.choices) {
+      Json set = Json::object();
+      for (const auto& setting : choice.settings) set[setting.target] = setting.value;
+      choices.push_back({{"label", choice.label}, {"set", std::move(set)}});
+    }
+    json["axes"].push_back({{"name", axis.name}, {"choices", std::move(choices)}});
+  }
+  json["metrics"] = Json::array();
+  for (const auto& metric : sweep.metrics) {
+    Json shown{{"name", metric.name}};
+    if (metric.digits) shown["digits"] = *metric.digits;
+    json["metrics"].push_back(std::move(shown));
+  }
+  json["pictures"] = Json::array();
+  for (const auto& sheet : sweep.sheets) json["pictures"].push_back({{"file", sheet.file}, {"picture", sheet.picture}});
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 /// The sweep's folder, locked against a second run at the same time. Refused if it holds anything but a sweep.
 class SweepFolder {
  public:
@@ -36,10 +63,7 @@ class SweepFolder {
                         "choose another folder with --out, or empty it");
     lock_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) == 0) {
-      write_file(folder / sweep_mark,
-                 nlohmann::ordered_json{{"atrium", framework_version()}, {"sweep", sweep.path.string()}}.dump(
-                     1, ' ', false, nlohmann::json::error_handler_t::replace) +
-                     "\n");
+      write_file(folder / sweep_mark, sweep_json(sweep));
       return;
     }
     if (lock_ >= 0) ::close(lock_);
@@ -97,12 +121,9 @@ class Recorder final : public ProgressSink {
   }
   void finished(const NodeRecord& record) override {
     progress_.finished(record);
-    const std::lock_guard lock(mutex_);
-    const std::size_t n = index_.at(record.node);
-    records_[n] = record;
-    for (const std::size_t v : variants_of_[n])
-      if (--left_[v] == 0) record_variant(v);
+    if (record.status != NodeStatus::ok) settle(record);
   }
+  void described(const NodeRecord& record) override { settle(record); }
 
   /// A picture shows a variant: the first that has the node which drew it.
   const PngStamp& stamp_of_variant(const PipelineNode& node) {
@@ -119,6 +140,14 @@ class Recorder final : public ProgressSink {
   const std::vector<NodeRecord>& records() const { return records_; }
 
  private:
+  void settle(const NodeRecord& record) {
+    const std::lock_guard lock(mutex_);
+    const std::size_t n = index_.at(record.node);
+    records_[n] = record;
+    for (const std::size_t v : variants_of_[n])
+      if (--left_[v] == 0) record_variant(v);
+  }
+
   fs::path folder_of(const SweepVariant& variant) const { return options_.out / "variants" / variant.id; }
 
   std::string path_of(std::size_t n) const {
@@ -144,7 +173,8 @@ class Recorder final : public ProgressSink {
 
   void add_node(const SweepVariant& variant, std::size_t n, VariantResult& result) {
     const NodeRecord& record = records_[n];
-    result.nodes.push_back({path_of(n), record.type, record.status, record.wall, record.cpu, record.peak_memory});
+    result.nodes.push_back(
+        {path_of(n), record.type, record.status, record.wall, record.cpu, record.peak_memory, record.outputs});
     if (record.status == NodeStatus::failed && result.message.empty())
       result.message = path_of(n) + ": " + record.message;
     if (record.status == NodeStatus::failed) result.status = NodeStatus::failed;

@@ -112,7 +112,31 @@ TEST_F(Sweep, AVariantIsWhatItsOwnFileGives) {
     for (const auto& output : recorded.at("outputs"))
       EXPECT_EQ(output.at("facts")[0].at("value"), run.at(output.at("name").get<std::string>()).at("value"));
     EXPECT_EQ(read_text(variant.path() / "sub/value.txt"), read_text(fs::path(alone) / "sub/value.txt"));
+    const json manifest = json::parse(read_text(fs::path(alone) / "manifest.json"));
+    ASSERT_EQ(recorded.at("nodes").size(), manifest.at("nodes").size());
+    for (std::size_t n = 0; n < manifest.at("nodes").size(); ++n) {
+      const json& node = recorded.at("nodes")[n];
+      EXPECT_EQ(node.at("node"), manifest.at("nodes")[n].at("node"));
+      EXPECT_EQ(node.at("outputs"), manifest.at("nodes")[n].at("outputs"));
+      for (const auto& output : node.at("outputs")) EXPECT_EQ(output.at("hash").get<std::string>().size(), 32U);
+    }
+    EXPECT_EQ(manifest.at("outputs").at("number").at("facts"), recorded.at("outputs")[1].at("facts"));
   }
+}
+
+TEST_F(Sweep, TheFolderSaysWhatWasVaried) {
+  sweep(
+      "summary: Two by two.\ngrid: {second.value: [2, 3]}\nscenes: {near: {start: 1 m}, far: {start: 10 m}}\n"
+      "metrics: {sum: number, in cm: {of: number, digits: 2}}\n");
+  ASSERT_EQ(atrium({"run", "s.yaml", "--out", "out", "--quiet"}).exit_code, 0);
+  const json recorded = json::parse(read_text(folder / "out/sweep.json"));
+  EXPECT_EQ(recorded.at("summary"), "Two by two.");
+  EXPECT_EQ(recorded.at("axes"),
+            json::parse(R"([{"name": "scene", "choices": [{"label": "near", "set": {"start": "1 m"}},
+                                                          {"label": "far", "set": {"start": "10 m"}}]},
+                            {"name": "second.value", "choices": [{"label": "2", "set": {"second.value": "2"}},
+                                                                 {"label": "3", "set": {"second.value": "3"}}]}])"));
+  EXPECT_EQ(recorded.at("metrics"), json::parse(R"([{"name": "sum"}, {"name": "in cm", "digits": 2}])"));
 }
 
 TEST_F(Sweep, WhatIsDoneIsNotDoneAgainAndGrowingRenamesNothing) {
