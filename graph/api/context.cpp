@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -83,10 +84,11 @@ std::filesystem::path Context::output(const std::string& relative) const {
   return target;
 }
 
-AtomicFile::AtomicFile(std::filesystem::path target)
-    : target_(std::move(target)),
-      temporary_(target_.parent_path() /
-                 ("." + target_.filename().string() + "." + std::to_string(::getpid()) + ".part")) {
+AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)) {
+  // Two threads, or two processes, may write the same file: each has its own beside it, and the last one stays.
+  static std::atomic<std::uint64_t> number = 0;
+  temporary_ = target_.parent_path() / ("." + target_.filename().string() + "." + std::to_string(::getpid()) + "-" +
+                                        std::to_string(++number) + ".part");
   file_ = std::fopen(temporary_.c_str(), "wb");
   if (file_ == nullptr) throw Error("cannot write " + target_.string() + ": " + std::strerror(errno));
 }

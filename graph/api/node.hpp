@@ -31,6 +31,8 @@ namespace atrium {
 ///
 /// A field that no table lists does not compile. Optional: `static constexpr int version` (raise it when the results
 /// change), `static constexpr bool random = true` (it draws randomness from its Context: another seed, another result),
+/// `static constexpr bool cached = false` (its result depends on more than its inputs, parameters, seed and the files
+/// that its InputPath parameters name: it is computed in every run),
 /// `static constexpr bool sink = true` (runs although nothing reads its outputs; nodes without outputs and
 /// nodes with an OutputPath are sinks anyway).
 
@@ -71,13 +73,16 @@ constexpr PortRow<S, T> port(T S::*member, std::string_view name, std::string_vi
 struct PortInfo {
   std::string name, type, doc;
   bool optional = false, repeated = false;
+  Value (*wrap)(std::shared_ptr<const void>) = nullptr;  ///< of an output: the value of a port from its data
+  const FlatType* flat = nullptr;                        ///< of an output: how its values are stored; null: they are not
 };
 
 /// A node type, erased: what the checker, the runner and `atrium nodes` know of it.
 struct NodeType {
   std::string type, summary;
   int version = 1;
-  bool sink = false, random = false;
+  bool sink = false, random = false, cached = true;
+  std::string library;  ///< the plugin's file; empty for types of the program itself
   std::vector<PortInfo> inputs, outputs;
   std::vector<ParamInfo> params;
   /// inputs[i] belongs to port i and holds 0, 1 or many values; params[i] to parameter i. Returns one value per output.
@@ -183,14 +188,19 @@ NodeType describe_tables() {
                            std::string(row.doc), Kind::optional, Kind::repeated});
   };
   const auto add_output = [&]<class S, class T>(const PortRow<S, T>& row) {
-    node.outputs.push_back({std::string(row.name), std::string(PortType<typename detail::OutputKind<T>::Type>::name),
-                            std::string(row.doc), false, false});
+    using Type = typename detail::OutputKind<T>::Type;
+    const auto wrap = [](std::shared_ptr<const void> data) {
+      return make_value<Type>(std::static_pointer_cast<const Type>(std::move(data)));
+    };
+    node.outputs.push_back({std::string(row.name), std::string(PortType<Type>::name), std::string(row.doc), false,
+                            false, wrap, flat_type<Type>()});
   };
   std::apply([&](const auto&... row) { (add_input(row), ...); }, N::inputs);
   std::apply([&](const auto&... row) { (add_output(row), ...); }, N::outputs);
   const typename N::Params defaults{};
   std::apply([&](const auto&... row) { (node.params.push_back(detail::erase(row, defaults)), ...); }, N::params);
   if constexpr (requires { N::random; }) node.random = N::random;
+  if constexpr (requires { N::cached; }) node.cached = N::cached;
   node.sink = node.outputs.empty();
   if constexpr (requires { N::sink; }) node.sink = node.sink || N::sink;
   for (const auto& p : node.params) node.sink = node.sink || p.kind == ParamKind::output_path;

@@ -8,7 +8,7 @@
 #define ATRIUM_STRINGIFY(x) ATRIUM_STRINGIFY_(x)
 
 /// What must agree between the program and a plugin: framework interface, compiler, Eigen's alignment.
-#define ATRIUM_INTERFACE "1"
+#define ATRIUM_INTERFACE "2"
 #define ATRIUM_STAMP \
   "atrium " ATRIUM_INTERFACE "; " __VERSION__ "; Eigen alignment " ATRIUM_STRINGIFY(EIGEN_MAX_STATIC_ALIGN_BYTES)
 

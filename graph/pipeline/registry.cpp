@@ -132,6 +132,7 @@ struct Registry::Impl {
     const std::filesystem::path file = plugin_file(module);
     if (file.empty()) return;
     for (auto& node : load_plugin(file, module)) {
+      node.library = file.string();
       std::string name = node.type;
       types.try_emplace(std::move(name), std::move(node));
     }

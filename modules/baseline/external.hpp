@@ -24,6 +24,7 @@ namespace atrium::baseline {
 struct External {
   static constexpr std::string_view type = "baseline.external";
   static constexpr std::string_view summary = "Runs any program by its command line and takes the mesh that it writes.";
+  static constexpr bool cached = false;  // the program may change
   struct In {
     OptionalInput<Cloud> cloud;
     OptionalInput<Mesh> mesh;

@@ -15,6 +15,7 @@ namespace atrium::render {
 struct ReadPictures {
   static constexpr std::string_view type = "render.read_pictures";
   static constexpr std::string_view summary = "Reads PNG files for a contact sheet.";
+  static constexpr bool cached = false;  // it looks for the files itself
 
   struct In {};
   struct Out {

@@ -2,10 +2,21 @@
 
 #include <algorithm>
 
+#include "graph/api/error.hpp"
+
 namespace atrium {
 
-std::pair<std::uint64_t, std::vector<Adjacency::Edge>> Adjacency::contents(const Adjacency& adjacency) {
+Adjacency::Contents Adjacency::contents(const Adjacency& adjacency) {
   return {boost::num_vertices(adjacency.graph), adjacency.edges()};
+}
+
+Adjacency Adjacency::from_contents(Contents contents) {
+  Adjacency adjacency{Graph(contents.first)};
+  for (const Edge& edge : contents.second) {
+    if (edge.a >= contents.first || edge.b >= contents.first) throw Error("an edge leads to a vertex that is not there");
+    boost::add_edge(edge.a, edge.b, AdjacencyEdge{edge.separation}, adjacency.graph);
+  }
+  return adjacency;
 }
 
 std::vector<Adjacency::Edge> Adjacency::edges() const {

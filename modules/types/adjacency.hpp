@@ -24,8 +24,10 @@ struct Adjacency {
 
   Graph graph;
 
-  /// Content for hashing: a Boost graph has no fields to list.
-  static std::pair<std::uint64_t, std::vector<Edge>> contents(const Adjacency& adjacency);
+  /// Number of vertices and edges: a Boost graph has no fields to list.
+  using Contents = std::pair<std::uint64_t, std::vector<Edge>>;
+  static Contents contents(const Adjacency& adjacency);
+  static Adjacency from_contents(Contents contents);
 
   /// All edges with a < b, ascending: the order in which algorithms walk them.
   std::vector<Edge> edges() const;

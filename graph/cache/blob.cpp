@@ -1,0 +1,83 @@
+#include "graph/cache/blob.hpp"
+
+#include <cstring>
+
+#include "graph/api/context.hpp"
+#include "graph/cache/mapped_file.hpp"
+
+namespace atrium {
+namespace {
+
+struct Head {
+  char magic[8];
+  std::uint64_t byte_order, layout;
+  char hash[32];
+  std::uint64_t reserved;
+};
+static_assert(sizeof(Head) == 64);
+constexpr char magic[8] = {'a', 't', 'r', 'i', 'u', 'm', 'B', '1'};
+constexpr std::uint64_t byte_order = 0x0102030405060708;
+constexpr std::size_t digest_size = 32;
+
+std::string digest_of(const std::byte* data, std::size_t size) {
+  ContentHash hash;
+  hash.bytes(data, size);
+  return hash.hex();
+}
+
+/// The head of a file that is whole.
+Head checked_head(const MappedFile& map, const std::filesystem::path& file) {
+  Head head{};
+  const auto refuse = [&](const char* why) { throw Error(file.string() + " " + why); };
+  if (map.size() < sizeof(Head) + digest_size) refuse("is cut off");
+  std::memcpy(&head, map.data(), sizeof head);
+  if (std::memcmp(head.magic, magic, sizeof magic) != 0) refuse("is not a stored value of this version");
+  if (head.byte_order != byte_order) refuse("was written on a machine of another byte order");
+  const std::size_t whole = map.size() - digest_size;
+  if (digest_of(map.data(), whole) != std::string(reinterpret_cast<const char*>(map.data()) + whole, digest_size))
+    refuse("is damaged");
+  return head;
+}
+
+}  // namespace
+
+std::vector<FlatReference> write_blob(const std::filesystem::path& file, const FlatType& type, const void* value,
+                                      const std::string& hash) {
+  AtomicFile out(file);
+  ContentHash digest;
+  const auto write = [&](const void* data, std::size_t size) {
+    digest.bytes(data, size);
+    out.write(data, size);
+  };
+  Head head{{}, byte_order, type.layout, {}, 0};
+  std::memcpy(head.magic, magic, sizeof magic);
+  std::memcpy(head.hash, hash.data(), std::min(hash.size(), sizeof head.hash));
+  write(&head, sizeof head);
+  FlatWriter writer(write);
+  type.write(value, writer);
+  writer.finish();
+  out.write(digest.hex());
+  out.commit();
+  return writer.references();
+}
+
+std::shared_ptr<const void> read_blob(const std::filesystem::path& file, const FlatType& type, const std::string& hash,
+                                      const FlatReader::Resolve& resolve) {
+  const MappedFile map(file);
+  const Head head = checked_head(map, file);
+  if (head.layout != type.layout) throw Error(file.string() + " holds a value of another layout");
+  if (std::string_view(head.hash, sizeof head.hash) != hash) throw Error(file.string() + " holds another value");
+  FlatReader reader(map.data() + sizeof head, map.size() - sizeof head - digest_size, resolve);
+  auto value = type.read(reader);
+  if (!reader.at_end()) throw Error(file.string() + " is longer than its value");
+  return value;
+}
+
+void check_blob(const std::filesystem::path& file) { checked_head(MappedFile(file), file); }
+
+std::string hash_of_file(const std::filesystem::path& file) {
+  const MappedFile map(file);
+  return digest_of(map.data(), map.size());
+}
+
+}  // namespace atrium
