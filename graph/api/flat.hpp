@@ -11,9 +11,9 @@
 
 namespace atrium {
 
-/// The flat form of a value: its bytes in the order in which they are hashed, little-endian. Arrays of 64 bytes and more
-/// begin at a multiple of 64, so that a mapped file is read by one copy per array. What a value shares with others (a
-/// std::shared_ptr in it) stands in it as its content hash and is stored on its own.
+/// The flat form of a value: its bytes in the order in which they are hashed, little-endian. Arrays of 64 bytes and
+/// more begin at a multiple of 64, so that a mapped file is read by one copy per array. What a value shares with others
+/// (a std::shared_ptr in it) stands in it as its content hash and is stored on its own.
 struct FlatType {
   std::string_view name;     ///< of the port type; empty for a type that is only inside others
   std::uint64_t layout = 0;  ///< from the kinds and sizes of all fields, in their order: another layout, another number
@@ -103,7 +103,8 @@ concept IsTuple = requires {
 };
 template <class T>
 constexpr bool is_block() {
-  return requires(T & v) { v.data(); } && (is_flat<ItemOf<T>>() || IsFlatArray<ItemOf<T>>::value);
+  return requires(T & v) { v.data(); }
+  &&(is_flat<ItemOf<T>>() || IsFlatArray<ItemOf<T>>::value);
 }
 
 /// Calls f.template operator()<Field>() for the type of each field or item.
@@ -116,11 +117,10 @@ constexpr void for_each_part(F f) {
   else if constexpr (Range<T>)
     f.template operator()<ItemOf<T>>();
   else if constexpr (IsTuple<T>)
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (f.template operator()<std::tuple_element_t<I, T>>(), ...);
-    }(std::make_index_sequence<std::tuple_size_v<T>>());
+    [&]<std::size_t... I>(std::index_sequence<I...>) { (f.template operator()<std::tuple_element_t<I, T>>(), ...); }
+  (std::make_index_sequence<std::tuple_size_v<T>>());
   else if constexpr (PointerLike<T> && !EigenFixed<T>)
-    f.template operator()<std::remove_cvref_t<decltype(*std::declval<const T&>())>>();
+      f.template operator()<std::remove_cvref_t<decltype(*std::declval<const T&>())>>();
 }
 
 /// Whether a value can be made again from its flat form: no bare pointers, no `contents` without `from_contents`.
@@ -130,7 +130,9 @@ constexpr bool is_storable() {
     return true;
   } else {
     bool good = std::is_default_constructible_v<T> && !std::is_pointer_v<T>;
-    if constexpr (HasContents<T>) good = good && requires(ContentsOf<T> c) { T::from_contents(std::move(c)); };
+    if constexpr (HasContents<T>) good = good && requires(ContentsOf<T> c) {
+        T::from_contents(std::move(c));
+      };
     for_each_part<T>([&]<class Part>() { good = good && is_storable<Part>(); });
     return good;
   }
@@ -252,23 +254,23 @@ void read_flat(T& value, FlatReader& in) {
 template <class T>
 const FlatType* flat_type() {
   if constexpr (detail::is_storable<T>()) {
-    static constexpr FlatType type{
-        [] {
-          if constexpr (requires { T::port_type; })
-            return std::string_view(T::port_type);
-          else
-            return std::string_view();
-        }(),
-        detail::layout_of<T>(), [](const void* value) { return content_hash(*static_cast<const T*>(value)); },
-        [](const void* value, FlatWriter& out) {
-          detail::FlatSink sink{out};
-          detail::walk(*static_cast<const T*>(value), sink);
-        },
-        [](FlatReader& in) -> std::shared_ptr<const void> {
-          auto value = std::make_shared<T>();
-          detail::read_flat(*value, in);
-          return std::shared_ptr<const T>(std::move(value));
-        }};
+    static constexpr FlatType type{[] {
+                                     if constexpr (requires { T::port_type; })
+                                       return std::string_view(T::port_type);
+                                     else
+                                       return std::string_view();
+                                   }(),
+                                   detail::layout_of<T>(),
+                                   [](const void* value) { return content_hash(*static_cast<const T*>(value)); },
+                                   [](const void* value, FlatWriter& out) {
+                                     detail::FlatSink sink{out};
+                                     detail::walk(*static_cast<const T*>(value), sink);
+                                   },
+                                   [](FlatReader& in) -> std::shared_ptr<const void> {
+                                     auto value = std::make_shared<T>();
+                                     detail::read_flat(*value, in);
+                                     return std::shared_ptr<const T>(std::move(value));
+                                   }};
     return &type;
   } else {
     return nullptr;

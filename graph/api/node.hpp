@@ -74,7 +74,7 @@ struct PortInfo {
   std::string name, type, doc;
   bool optional = false, repeated = false;
   Value (*wrap)(std::shared_ptr<const void>) = nullptr;  ///< of an output: the value of a port from its data
-  const FlatType* flat = nullptr;                        ///< of an output: how its values are stored; null: they are not
+  const FlatType* flat = nullptr;  ///< of an output: how its values are stored; null: they are not
 };
 
 /// A node type, erased: what the checker, the runner and `atrium nodes` know of it.

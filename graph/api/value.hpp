@@ -26,8 +26,9 @@ namespace atrium {
 ///
 /// A type whose fields cannot be listed gives `static auto contents(const T&)`, a value that can be walked instead, and
 /// its inverse, `static T from_contents(contents)`. The fields give content hashes, sizes and the form in which the
-/// cache stores it. A type with `static std::vector<Fact> facts(const T&)` is printed when it is an output of a pipeline. Structs inside need only `members`. Numbers, strings, containers, shared pointers and
-/// Eigen's fixed-size matrices are known.
+/// cache stores it. A type with `static std::vector<Fact> facts(const T&)` is printed when it is an output of a
+/// pipeline. Structs inside need only `members`. Numbers, strings, containers, shared pointers and Eigen's fixed-size
+/// matrices are known.
 template <class T>
 struct PortType {
   static constexpr std::string_view name = T::port_type;
@@ -89,8 +90,7 @@ struct Value {
 template <class T>
 Value make_value(std::shared_ptr<const T> data) {
   return {std::move(data), [](const void* p) { return content_hash(*static_cast<const T*>(p)); },
-          [](const void* p) { return byte_size(*static_cast<const T*>(p)); }, detail::facts_of<T>(),
-          flat_type<T>()};
+          [](const void* p) { return byte_size(*static_cast<const T*>(p)); }, detail::facts_of<T>(), flat_type<T>()};
 }
 
 }  // namespace atrium

@@ -13,7 +13,9 @@
 namespace atrium {
 
 MappedFile::MappedFile(const std::filesystem::path& file) {
-  const auto fail = [&] { throw Error("cannot read " + file.string() + ": " + std::generic_category().message(errno)); };
+  const auto fail = [&] {
+    throw Error("cannot read " + file.string() + ": " + std::generic_category().message(errno));
+  };
   const int number = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (number < 0) fail();
   struct stat info {};

@@ -13,7 +13,8 @@ Adjacency::Contents Adjacency::contents(const Adjacency& adjacency) {
 Adjacency Adjacency::from_contents(Contents contents) {
   Adjacency adjacency{Graph(contents.first)};
   for (const Edge& edge : contents.second) {
-    if (edge.a >= contents.first || edge.b >= contents.first) throw Error("an edge leads to a vertex that is not there");
+    if (edge.a >= contents.first || edge.b >= contents.first)
+      throw Error("an edge leads to a vertex that is not there");
     boost::add_edge(edge.a, edge.b, AdjacencyEdge{edge.separation}, adjacency.graph);
   }
   return adjacency;

@@ -11,6 +11,7 @@
 #include "graph/cache/blob.hpp"
 #include "graph/pipeline/registry.hpp"
 #include "modules/types/adjacency.hpp"
+#include "modules/types/building.hpp"
 #include "modules/types/floor_plan.hpp"
 #include "modules/types/metrics.hpp"
 #include "modules/types/picture.hpp"
@@ -72,9 +73,9 @@ struct Odds {
   std::array<std::string, 3> corners;
 };
 
-using PortTypes =
-    testing::Types<bool, std::int64_t, double, std::string, Adjacency, Cloud, FloorPlan, GroundTruth, Mesh, Metrics,
-                   Pictures, PlaneMeshes, PlanePrimitives, Poses, SimulatedScene, Structure, Textures, Transform, Odds>;
+using PortTypes = testing::Types<bool, std::int64_t, double, std::string, Adjacency, Building, Cloud, FloorPlan,
+                                 GroundTruth, Mesh, Metrics, Pictures, PlaneMeshes, PlanePrimitives, Poses,
+                                 SimulatedScene, Structure, Textures, Transform, Odds>;
 
 template <class T>
 class Flat : public testing::Test {
