@@ -104,8 +104,8 @@ void AtomicFile::write(const void* data, std::size_t size) {
     throw Error("cannot write " + target_.string() + ": " + std::strerror(errno));
 }
 
-void AtomicFile::commit() {
-  const bool flushed = std::fflush(file_) == 0 && ::fsync(::fileno(file_)) == 0;
+void AtomicFile::publish(bool flush) {
+  const bool flushed = std::fflush(file_) == 0 && (!flush || ::fsync(::fileno(file_)) == 0);
   const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
   if (!flushed || !closed) throw Error("cannot write " + target_.string() + ": " + std::strerror(errno));
   std::error_code error;

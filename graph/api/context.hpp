@@ -79,8 +79,10 @@ class AtomicFile {
   const std::filesystem::path& path() const { return temporary_; }
   void write(const void* data, std::size_t size);
   void write(std::string_view text) { write(text.data(), text.size()); }
-  /// Flushes, checks, renames.
-  void commit();
+  /// Flushes to the disk, checks, renames.
+  void commit() { publish(true); }
+  /// The same; without the flush only for what is checked when it is read: after a power failure it may be cut off.
+  void publish(bool flush = false);
 
  private:
   std::filesystem::path target_, temporary_;
