@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <tuple>
 
 #include "modules/geometry/box_tree.hpp"
 #include "modules/geometry/exact_sign.hpp"
@@ -9,133 +10,167 @@
 namespace atrium::metric {
 namespace {
 
-using Corners = std::array<Eigen::Vector3d, 3>;
-using Signs = std::array<int, 3>;
+using Edge = std::array<std::uint32_t, 2>;  // the lower vertex first
 
-Signs sides(const Corners& of, const Corners& plane) {
-  return {plane_side(plane[0], plane[1], plane[2], of[0]), plane_side(plane[0], plane[1], plane[2], of[1]),
-          plane_side(plane[0], plane[1], plane[2], of[2])};
-}
-bool both_sides(const Signs& s) {
-  return *std::min_element(s.begin(), s.end()) < 0 && *std::max_element(s.begin(), s.end()) > 0;
-}
-
-// Turns the corners so that the first is alone on its side (the others are on the other or on the plane). Returns that
-// side.
-int first_alone(Corners& t, Signs s) {
-  for (int i = 0; i < 3; ++i) {
-    if (s[0] != 0 && s[1] != s[0] && s[2] != s[0]) break;
-    t = {t[1], t[2], t[0]};
-    s = {s[1], s[2], s[0]};
+// An edge that runs in the inside of a face, and the side of it on which one of the edge's own faces lies.
+struct EdgeInFace {
+  Edge edge;
+  std::uint32_t face;
+  int side;
+  friend bool operator<(const EdgeInFace& a, const EdgeInFace& b) {
+    return std::tie(a.edge, a.face, a.side) < std::tie(b.edge, b.face, b.side);
   }
-  return s[0];
-}
+};
 
-// With (0, +, −) both signs stand alone: either serves.
-bool crossing(Corners a, Corners b, const Signs& of_a, const Signs& of_b) {
-  const int side_a = first_alone(a, of_a), side_b = first_alone(b, of_b);
-  // Guigue and Devillers 2003: both first corners on the positive side of the other's plane. Turning a triangle round
-  // changes the other's side.
-  if (side_a < 0) std::swap(b[1], b[2]);
-  if (side_b < 0) std::swap(a[1], a[2]);
-  return plane_side(a[0], a[1], b[0], b[1]) < 0 && plane_side(a[0], a[2], b[2], b[0]) < 0;
-}
+struct Part {
+  SelfIntersections found;
+  std::vector<EdgeInFace> in_faces;
+  std::vector<std::array<Edge, 2>> on_edges;  // two that share a piece
+};
 
-bool areas_overlap(const Corners& a, const Corners& b) {
-  using Flat = std::array<Eigen::Vector2d, 3>;
-  // Seen along the first axis on which the triangle has an area: its sign is exact.
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto flat = [&](const Corners& t) {
-      Flat f;
-      for (std::size_t i = 0; i < 3; ++i) f[i] = {t[i][(axis + 1) % 3], t[i][(axis + 2) % 3]};
-      if (turn_sign(f[0], f[1], f[2]) < 0) std::swap(f[1], f[2]);
-      return f;
-    };
-    const Flat p = flat(a), q = flat(b);
-    if (turn_sign(p[0], p[1], p[2]) == 0) continue;
-    const auto separates = [](const Flat& t, const Flat& other) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        bool outside = true;
-        for (const auto& x : other) outside = outside && turn_sign(t[i], t[(i + 1) % 3], x) <= 0;
-        if (outside) return true;
+class Pairs {
+ public:
+  Pairs(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Triangle>& triangles, double deep)
+      : vertices_(vertices), triangles_(triangles), deep_(deep) {}
+
+  Corners corners(std::uint32_t t) const {
+    return {vertices_[triangles_[t][0]], vertices_[triangles_[t][1]], vertices_[triangles_[t][2]]};
+  }
+  void look_at(std::uint32_t a, std::uint32_t b, Part& part) const {
+    if (same_corners(a, b)) return;
+    const Corners at_a = corners(a), at_b = corners(b);
+    const auto how = meeting(at_a, at_b);
+    if (how == Meeting::apart) return;
+    if (how == Meeting::overlap) ++part.found.overlaps;
+    if (how == Meeting::crossing) {
+      ++part.found.crossings;
+      if (crossing_depth(at_a, at_b) > deep_) ++part.found.deep_crossings;
+    }
+    if (how == Meeting::touching) {
+      ++part.found.touches;
+      add_edges_in_face(a, b, part);
+      add_edges_in_face(b, a, part);
+      add_edges_on_edges(a, b, part);
+    }
+    part.found.triangles.insert(part.found.triangles.end(), {a, b});
+  }
+
+  // Of the faces at an edge in the inside of a face, some lie before and some behind it.
+  static void through_faces(std::vector<EdgeInFace>& in_faces, std::vector<Edge>& through) {
+    std::sort(in_faces.begin(), in_faces.end());
+    for (std::size_t i = 0; i < in_faces.size();) {
+      std::size_t end = i;
+      while (end < in_faces.size() && in_faces[end].edge == in_faces[i].edge && in_faces[end].face == in_faces[i].face)
+        ++end;
+      if (in_faces[i].side < 0 && in_faces[end - 1].side > 0) through.push_back(in_faces[i].edge);
+      i = end;
+    }
+  }
+
+  // Both edges have two faces, and they take turns round the line.
+  void through_edges(std::vector<std::array<Edge, 2>>& on_edges, std::vector<Edge>& through) const {
+    if (on_edges.empty()) return;
+    std::sort(on_edges.begin(), on_edges.end());
+    on_edges.erase(std::unique(on_edges.begin(), on_edges.end()), on_edges.end());
+    const auto uses = edge_uses(triangles_);
+    const auto strip = [&](const Edge& edge, std::array<Eigen::Vector3d, 2>& apexes) {
+      const auto at = std::lower_bound(uses.begin(), uses.end(), EdgeUse{edge[0], edge[1], 0, true});
+      const auto count = std::min<std::ptrdiff_t>(3, uses.end() - at);
+      std::ptrdiff_t own = 0;
+      for (; own < count && at[own].same_edge({edge[0], edge[1], 0, true}); ++own) {
+        if (own == 2) break;
+        for (const auto v : triangles_[at[own].triangle])
+          if (v != edge[0] && v != edge[1]) apexes[static_cast<std::size_t>(own)] = vertices_[v];
       }
-      return false;
+      return own == 2 && (count < 3 || !at[2].same_edge(at[0]));
     };
-    return !separates(p, q) && !separates(q, p);
+    for (const auto& [one, other] : on_edges) {
+      std::array<Eigen::Vector3d, 2> at_one, at_other;
+      if (!strip(one, at_one) || !strip(other, at_other)) continue;
+      if (strips_cross(vertices_[one[0]], vertices_[one[1]], at_one, at_other))
+        through.insert(through.end(), {one, other});
+    }
   }
-  return false;
+
+ private:
+  bool same_corners(std::uint32_t a, std::uint32_t b) const {
+    Triangle s = triangles_[a], t = triangles_[b];
+    std::sort(s.begin(), s.end());
+    std::sort(t.begin(), t.end());
+    return s == t;
+  }
+  Edge edge(std::uint32_t t, std::size_t i) const {
+    const auto p = triangles_[t][i], q = triangles_[t][(i + 1) % 3];
+    return {std::min(p, q), std::max(p, q)};
+  }
+  void add_edges_in_face(std::uint32_t of, std::uint32_t face, Part& part) const {
+    const Corners own = corners(of), f = corners(face);
+    std::array<int, 3> side{};
+    for (std::size_t i = 0; i < 3; ++i) side[i] = plane_side(f[0], f[1], f[2], own[i]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t k = (i + 1) % 3, apex = (i + 2) % 3;
+      if (side[i] == 0 && side[k] == 0 && side[apex] != 0 && enters(own[i], own[k], f))
+        part.in_faces.push_back({edge(of, i), face, side[apex]});
+    }
+  }
+  void add_edges_on_edges(std::uint32_t a, std::uint32_t b, Part& part) const {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Edge e = edge(a, i), f = edge(b, k);
+        if (e != f && share_piece(vertices_[e[0]], vertices_[e[1]], vertices_[f[0]], vertices_[f[1]]))
+          part.on_edges.push_back(e < f ? std::array{e, f} : std::array{f, e});
+      }
+  }
+
+  const std::vector<Eigen::Vector3d>& vertices_;
+  const std::vector<Triangle>& triangles_;
+  double deep_;
+};
+
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+template <class T>
+void keep_distinct(std::vector<T>& all) {
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
 }
 
 }  // namespace
 
-Meeting meeting(const Corners& a, const Corners& b) {
-  const Signs of_a = sides(a, b);
-  if (of_a == Signs{0, 0, 0}) return areas_overlap(a, b) ? Meeting::overlap : Meeting::apart;
-  if (!both_sides(of_a)) return Meeting::apart;
-  const Signs of_b = sides(b, a);
-  if (!both_sides(of_b)) return Meeting::apart;
-  return crossing(a, b, of_a, of_b) ? Meeting::crossing : Meeting::apart;
-}
-
-double crossing_depth(const Corners& a, const Corners& b) {
-  const auto depth = [](const Corners& of, const Corners& plane) {
-    const Eigen::Vector3d normal = (plane[1] - plane[0]).cross(plane[2] - plane[0]).normalized();
-    double above = 0, below = 0;
-    for (const auto& p : of) {
-      const double d = normal.dot(p - plane[0]);
-      above = std::max(above, d);
-      below = std::max(below, -d);
-    }
-    return std::min(above, below);
-  };
-  return std::min(depth(a, b), depth(b, a));
-}
-
 SelfIntersections self_intersections(const std::vector<Eigen::Vector3d>& vertices,
                                      const std::vector<Triangle>& triangles, double deep, const Context& context) {
-  const auto corners = [&](std::uint32_t t) {
-    return Corners{vertices[triangles[t][0]], vertices[triangles[t][1]], vertices[triangles[t][2]]};
-  };
   std::vector<Eigen::AlignedBox3d> boxes(triangles.size());
   for (std::uint32_t t = 0; t < boxes.size(); ++t)
     for (const auto v : triangles[t]) boxes[t].extend(vertices[v]);
   const BoxTree tree(boxes, context);
-  const auto same_corners = [&](std::uint32_t a, std::uint32_t b) {
-    Triangle s = triangles[a], t = triangles[b];
-    std::sort(s.begin(), s.end());
-    std::sort(t.begin(), t.end());
-    return s == t;
-  };
+  const Pairs pairs(vertices, triangles, deep);
   constexpr std::size_t chunk_size = 1024;
-  std::vector<SelfIntersections> parts((triangles.size() + chunk_size - 1) / chunk_size);
+  std::vector<Part> parts((triangles.size() + chunk_size - 1) / chunk_size);
   context.parallel_chunks(triangles.size(), chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    auto& part = parts[chunk];
-    for (auto a = static_cast<std::uint32_t>(begin); a < end; ++a) {
-      const Corners own = corners(a);
+    for (auto a = static_cast<std::uint32_t>(begin); a < end; ++a)
       tree.meeting(boxes[a], [&](std::uint32_t b) {
-        if (b <= a) return;
-        const auto how = meeting(own, corners(b));
-        if (how == Meeting::apart || same_corners(a, b)) return;
-        if (how == Meeting::overlap) {
-          ++part.overlaps;
-        } else {
-          ++part.crossings;
-          if (crossing_depth(own, corners(b)) > deep) ++part.deep_crossings;
-        }
-        part.triangles.insert(part.triangles.end(), {a, b});
+        if (b > a) pairs.look_at(a, b, parts[chunk]);
       });
-    }
   });
-  SelfIntersections all;
-  for (auto& p : parts) {
-    all.crossings += p.crossings;
-    all.deep_crossings += p.deep_crossings;
-    all.overlaps += p.overlaps;
-    all.triangles.insert(all.triangles.end(), p.triangles.begin(), p.triangles.end());
+  Part all;
+  for (const auto& p : parts) {
+    all.found.crossings += p.found.crossings;
+    all.found.deep_crossings += p.found.deep_crossings;
+    all.found.overlaps += p.found.overlaps;
+    all.found.touches += p.found.touches;
+    append(all.found.triangles, p.found.triangles);
+    append(all.in_faces, p.in_faces);
+    append(all.on_edges, p.on_edges);
   }
-  std::sort(all.triangles.begin(), all.triangles.end());
-  all.triangles.erase(std::unique(all.triangles.begin(), all.triangles.end()), all.triangles.end());
-  return all;
+  std::vector<Edge> through;
+  Pairs::through_faces(all.in_faces, through);
+  pairs.through_edges(all.on_edges, through);
+  keep_distinct(through);
+  all.found.through_edges = through.size();
+  keep_distinct(all.found.triangles);
+  return all.found;
 }
 
 }  // namespace atrium::metric

@@ -17,7 +17,7 @@ constexpr double furthest = 1e60;  // beyond, signs would overflow
 struct Component {
   std::size_t triangles = 0, boundary = 0;
   double area = 0, volume = 0;
-  bool manifold = true, oriented = true, sound = true;  // sound: no duplicates, no intersections
+  bool manifold = true, oriented = true, sound = true;  // sound: no duplicates, no meeting faces
   bool closed() const { return boundary == 0; }
   bool watertight() const { return closed() && manifold && oriented && sound; }
 };
@@ -179,6 +179,8 @@ Validity::Out Validity::run(const In& in, const Params& params, Context& context
   report.count("self_intersections.crossing", found.intersections.crossings);
   report.count("self_intersections.deep", found.intersections.deep_crossings);
   report.count("self_intersections.overlapping", found.intersections.overlaps);
+  report.count("self_intersections.touching", found.intersections.touches);
+  report.count("self_intersections.through_edges", found.intersections.through_edges);
   report.count("self_intersections.faces", found.intersections.triangles.size());
   report_components(report, found.components, static_cast<std::size_t>(params.listed));
   return out;

@@ -20,13 +20,19 @@ namespace atrium::metric {
 /// - edges.misoriented: of two faces that run along it in the same direction, so that one of them is inside out.
 /// - vertices.non_manifold: whose faces fall apart into several fans if they hang together over edges only (two cubes
 ///   that touch in a corner). The ends of a non-manifold edge are not counted for it.
-/// - self_intersections.crossing: pairs of faces whose insides cross; .deep: by more than `depth` (the least reach of
-///   either face beyond the other's plane); .overlapping: pairs in exactly one plane whose insides share area, other
-///   than duplicates; .faces: how many faces take part. Faces that only touch (a T-junction, a wall that stands on the
-///   middle of a floor) do not intersect: boundary edges tell of them. Where closed solids pass through each other
-///   exactly along edges that lie in the other's faces, nothing tells: they count as watertight.
+/// - self_intersections, of faces that share more than common corners and common edges, in pairs: .crossing: their
+///   insides cross; .deep: by more than `depth` (the least reach of either face beyond the other's plane);
+///   .overlapping: they lie in exactly one plane and their insides share area, other than duplicates; .touching: all
+///   the rest, a corner or an edge of one lies on the other without being one of its own (a T-junction, a wall that
+///   stands on the middle of a floor). .faces: how many faces take part in any.
+/// - self_intersections.through_edges: edges along which a surface passes through another where no two faces cross: its
+///   faces lie on both sides of a face in which it runs, or take turns with the faces of another edge on the same line
+///   (a column that is cut into pieces exactly at the faces of the slab that it goes through). These faces are counted
+///   as touching; with 0 crossing, overlapping, through_edges and edges.non_manifold no two closed components pass
+///   through each other.
 /// - components: of faces that hang together over edges; .closed: those without boundary edges; .watertight: those that
-///   are closed and without non-manifold edges or vertices, misoriented edges, duplicates and intersections;
+///   are closed and without non-manifold edges or vertices, misoriented edges, duplicates and self-intersections,
+///   touching ones too (ISO 19107: a shell is simple, it meets itself nowhere);
 ///   .closed_area: share of the area that closed ones have.
 /// - closed, watertight: 1 if all components are (and there is one), else 0.
 /// - component_1, component_2, … for the `listed` largest by area: triangles, area in m2, boundary_edges, closed,

@@ -51,7 +51,8 @@ Mesh box(const V& low = V::Zero(), const V& high = V::Ones()) {
 void expect_clean(const Metrics& m) {
   for (const char* name :
        {"degenerate_faces", "duplicate_faces", "edges.boundary", "edges.non_manifold", "edges.misoriented",
-        "vertices.non_manifold", "self_intersections.crossing", "self_intersections.overlapping"})
+        "vertices.non_manifold", "self_intersections.crossing", "self_intersections.overlapping",
+        "self_intersections.touching", "self_intersections.through_edges"})
     EXPECT_EQ(of(m, name), 0) << name;
   EXPECT_EQ(of(m, "watertight"), 1);
 }
@@ -145,7 +146,7 @@ TEST(MetricValidity, BoxesThatTouch) {
   EXPECT_EQ(of(m, "components.all"), 1);
 }
 
-TEST(MetricValidity, ATJunctionIsOpenAndDoesNotIntersect) {
+TEST(MetricValidity, ATJunctionIsOpenAndTouches) {
   // Two squares side by side, the right one cut at half its height: at x = 1 stand one long and two short edges.
   Mesh mesh;
   mesh.vertices = {V(0, 0, 0), V(1, 0, 0), V(1, 1, 0), V(0, 1, 0), V(2, 0, 0), V(2, 1, 0), V(1, 0.5, 0)};
@@ -154,15 +155,21 @@ TEST(MetricValidity, ATJunctionIsOpenAndDoesNotIntersect) {
   EXPECT_EQ(of(m, "edges.boundary"), 3 + 3 + 3);  // three at the junction, three on each outside
   EXPECT_EQ(of(m, "self_intersections.crossing"), 0);
   EXPECT_EQ(of(m, "self_intersections.overlapping"), 0);
+  // The long edge's triangle touches all three beyond: two lie along it with an edge, one with a corner.
+  EXPECT_EQ(of(m, "self_intersections.touching"), 3);
+  EXPECT_EQ(of(m, "self_intersections.faces"), 4);
+  EXPECT_EQ(of(m, "self_intersections.through_edges"), 0);
   EXPECT_EQ(of(m, "components.all"), 2);
   EXPECT_EQ(of(m, "vertices.non_manifold"), 2);  // both ends of the junction: nothing joins the sides
 }
 
-TEST(MetricValidity, AWallThatStandsOnAFloorDoesNotIntersectItButOneThroughItDoes) {
+TEST(MetricValidity, AWallThatStandsOnAFloorTouchesItButOneThroughItCrosses) {
   Mesh mesh;
   add_rectangle(mesh, V(0, 0, 0), V(4, 0, 0), V(0, 4, 0), SurfaceClass::floor, 0);
   add_rectangle(mesh, V(1, 2.5, 0), V(0.5, 0, 0), V(0, 0, 2), SurfaceClass::wall, 1);
   EXPECT_EQ(of(validity(mesh), "self_intersections.crossing"), 0);
+  EXPECT_EQ(of(validity(mesh), "self_intersections.touching"), 2);  // one with an edge, one with a corner
+  EXPECT_EQ(of(validity(mesh), "self_intersections.through_edges"), 0);
   // One centimetre deeper it goes through one of the floor's triangles, with both of its own.
   mesh.vertices[4].z() = mesh.vertices[5].z() = -0.01;
   const auto m = validity(mesh);
@@ -305,6 +312,142 @@ TEST(SelfIntersections, AgreeWithSampledTrianglesWhereNothingIsNear) {
     crossing += expected ? 1 : 0;
   }
   EXPECT_GT(crossing, 1000);
+}
+
+TEST(MetricValidity, AColumnThroughASlabCutAtItsFaces) {
+  // The column's faces end where the slab's begin: no two faces cross, yet it goes through.
+  const auto slab_and = [](const auto& add_column) {
+    Mesh mesh = box(V(0, 0, 1), V(5, 4, 2));
+    add_column(mesh);
+    return validity(mesh);
+  };
+  const auto column = [](Mesh& mesh, const std::vector<double>& heights, double x, double y, double width) {
+    // A tube of four sides, cut at the heights, and two lids.
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const double z : heights)
+      for (const auto& [right, back] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+        mesh.vertices.emplace_back(x + right * width, y + back * width, z);
+    const auto at = [&](std::size_t level, std::size_t k) {
+      return static_cast<std::uint32_t>(first + 4 * level + k % 4);
+    };
+    for (std::size_t level = 0; level + 1 < heights.size(); ++level)
+      for (std::size_t k = 0; k < 4; ++k) {
+        mesh.triangles.push_back({at(level, k), at(level, k + 1), at(level + 1, k + 1)});
+        mesh.triangles.push_back({at(level, k), at(level + 1, k + 1), at(level + 1, k)});
+      }
+    const auto top = heights.size() - 1;
+    mesh.triangles.insert(mesh.triangles.end(), {{at(0, 0), at(0, 2), at(0, 1)}, {at(0, 0), at(0, 3), at(0, 2)}});
+    mesh.triangles.insert(mesh.triangles.end(),
+                          {{at(top, 0), at(top, 1), at(top, 2)}, {at(top, 0), at(top, 2), at(top, 3)}});
+  };
+  auto m = slab_and([&](Mesh& mesh) { column(mesh, {0, 1, 2, 3}, 3, 1, 0.5); });
+  EXPECT_EQ(of(m, "self_intersections.crossing"), 0);
+  EXPECT_EQ(of(m, "self_intersections.overlapping"), 0);
+  EXPECT_EQ(of(m, "self_intersections.through_edges"), 8);
+  EXPECT_GE(of(m, "self_intersections.touching"), 16);
+  EXPECT_EQ(of(m, "closed"), 1);
+  EXPECT_EQ(of(m, "components.watertight"), 0);
+  // Cut elsewhere, the same solids cross.
+  m = slab_and([&](Mesh& mesh) { column(mesh, {0, 1.5, 3}, 3, 1, 0.5); });
+  EXPECT_GE(of(m, "self_intersections.crossing"), 8);
+  EXPECT_EQ(of(m, "self_intersections.through_edges"), 0);
+  EXPECT_EQ(of(m, "components.watertight"), 0);
+  // Beside it, nothing is wrong.
+  m = slab_and([&](Mesh& mesh) { column(mesh, {0, 1, 2, 3}, 6, 1, 0.5); });
+  expect_clean(m);
+}
+
+TEST(MetricValidity, WedgesThatPassThroughEachOtherAlongTheirEdges) {
+  // Two roofs, one upside down, with their ridges on one line: half-planes that take turns pass through, others touch.
+  const auto prism = [](Mesh& mesh, const std::array<V, 3>& section, double from, double to) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const double y : {from, to})
+      for (const auto& p : section) mesh.vertices.emplace_back(p.x(), y, p.z());
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t n = (k + 1) % 3;
+      mesh.triangles.push_back({first + k, first + n, first + 3 + n});
+      mesh.triangles.push_back({first + k, first + 3 + n, first + 3 + k});
+    }
+    mesh.triangles.push_back({first, first + 2, first + 1});
+    mesh.triangles.push_back({first + 3, first + 4, first + 5});
+  };
+  Mesh touching;
+  prism(touching, {V(0, 0, 0), V(-1, 0, -1), V(1, 0, -1)}, 0, 4);
+  prism(touching, {V(0, 0, 0), V(1, 0, 1), V(-1, 0, 1)}, 1, 3);
+  auto m = validity(touching);
+  EXPECT_EQ(of(m, "self_intersections.crossing"), 0);
+  EXPECT_EQ(of(m, "self_intersections.through_edges"), 0);
+  EXPECT_GT(of(m, "self_intersections.touching"), 0);
+  EXPECT_EQ(of(m, "closed"), 1);
+  EXPECT_EQ(of(m, "components.watertight"), 0);
+  // One that starts at the ridge and goes down on one side only, beyond the other roof's side: its end triangles cross
+  // the other roof's side at most where it passes through.
+  Mesh through;
+  prism(through, {V(0, 0, 0), V(-1, 0, -1), V(1, 0, -1)}, 0, 4);
+  prism(through, {V(0, 0, 0), V(0, 0, -0.5), V(2, 0, -0.5)}, 1, 3);
+  m = validity(through);
+  EXPECT_EQ(of(m, "self_intersections.through_edges"), 2);
+  EXPECT_GT(of(m, "self_intersections.crossing"), 0);
+}
+
+RC_GTEST_PROP(MetricValidity, ValidSolidsAreCleanAndBoxesPassThroughWhereTheyShould, (std::uint32_t seed)) {
+  Random random(seed);
+  const auto whole = [&](double below) { return std::floor(random.uniform(0, below)); };
+  const auto any_box = [&](V& low, V& high) {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = whole(4);
+      high[k] = low[k] + 1 + whole(3);
+    }
+  };
+  V a, b, c, d;
+  any_box(a, b);
+  any_box(c, d);
+  expect_clean(validity(box(a, b)));
+  Mesh mesh = box(a, b);
+  add_box(mesh, c, d);
+  const auto m = validity(mesh);
+  const double passing = of(m, "self_intersections.crossing") + of(m, "self_intersections.overlapping") +
+                         of(m, "self_intersections.through_edges") + of(m, "edges.non_manifold");
+  const bool inside_out = (a.array() < d.array()).all() && (c.array() < b.array()).all();
+  const auto holds = [](const V& low, const V& high, const V& p, const V& q) {
+    return (low.array() <= p.array()).all() && (q.array() <= high.array()).all();
+  };
+  const bool nested = holds(a, b, c, d) || holds(c, d, a, b);
+  const bool disjoint = (a.array() > d.array()).any() || (c.array() > b.array()).any();
+  if (inside_out && !nested) RC_ASSERT(passing > 0);
+  if (!inside_out || nested) RC_ASSERT(of(m, "self_intersections.crossing") == 0);
+  if (disjoint) {
+    RC_ASSERT(of(m, "self_intersections.faces") == 0);
+    RC_ASSERT(of(m, "watertight") == 1);
+  } else if (!nested) {
+    RC_ASSERT(of(m, "watertight") == 0);
+  }
+  RC_CLASSIFY(inside_out && !nested, "passing");
+  RC_CLASSIFY(disjoint, "disjoint");
+}
+
+TEST(MetricValidity, AnLShapedSolidIsClean) {
+  // Its sides cut into triangles by their corners: nothing touches but along common edges, turned any way.
+  const std::array<V, 6> plan{V(0, 0, 0), V(4, 0, 0), V(4, 2, 0), V(2, 2, 0), V(2, 5, 0), V(0, 5, 0)};
+  Mesh mesh;
+  for (const double z : {0.0, 2.5})
+    for (const auto& p : plan) mesh.vertices.emplace_back(p.x(), p.y(), z);
+  for (const auto& [p, q, r] : {std::array{0U, 1U, 3U}, {1U, 2U, 3U}, {0U, 3U, 5U}, {3U, 4U, 5U}}) {
+    mesh.triangles.push_back({p, r, q});
+    mesh.triangles.push_back({6 + p, 6 + q, 6 + r});
+  }
+  for (std::uint32_t k = 0; k < 6; ++k) {
+    const std::uint32_t n = (k + 1) % 6;
+    mesh.triangles.push_back({k, n, 6 + n});
+    mesh.triangles.push_back({k, 6 + n, 6 + k});
+  }
+  expect_clean(validity(mesh));
+  EXPECT_NEAR(of(validity(mesh), "component_1.volume"), 14 * 2.5, 1e-12);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, V(3, 2, 1).normalized()).toRotationMatrix();
+  for (auto& v : mesh.vertices) v = turn * v + V(10, 20, -3);
+  const auto m = validity(mesh);
+  EXPECT_EQ(of(m, "self_intersections.deep"), 0);
+  EXPECT_EQ(of(m, "closed"), 1);
 }
 
 TEST(SelfIntersections, SharedCornersCount) {
