@@ -12,16 +12,17 @@
 namespace atrium::baseline {
 namespace {
 
-constexpr float level = 0.8F;     // |nz| of floors and ceilings, at least
-constexpr float sideways = 0.3F;  // |nz| of walls, at most
-constexpr double near_height = 0.05;
+constexpr float level = 0.8F;          // |nz| of floors and ceilings, at least
+constexpr float sideways = 0.3F;       // |nz| of walls, at most
 constexpr double ceiling_from = 0.85;  // of the height: lower level surfaces are no ceiling
-constexpr double lintel_from = 0.8;    // of the height: above doors and windows
+constexpr double lintel_from = 0.84;   // of the height: above doors, windows and wardrobes
 constexpr double lintel_to = 0.96;
 constexpr double wall_band = 0.2;  // from floor and ceiling: what lies there belongs to them
 constexpr double cell_height = 0.08;
 constexpr double most_pixels = 1e8;
-constexpr int opening = 3;  // pixels
+constexpr int opening = 3;     // pixels
+constexpr int spur_width = 3;  // pixels, half of it
+constexpr double spur_length = 0.6;
 
 bool is_level(const Cloud& cloud, std::size_t i) {
   return !cloud.has_normals() || std::abs(cloud.normals[i].z()) >= level;
@@ -33,13 +34,6 @@ bool is_sideways(const Cloud& cloud, std::size_t i) {
 bool is_ceiling(const Cloud& cloud, std::size_t i, const StoreyHeights& heights) {
   const double z = cloud.points[i].z() - heights.floor, height = heights.ceiling - heights.floor;
   return is_level(cloud, i) && z >= ceiling_from * height && z <= height + wall_band;
-}
-
-double median_near(std::vector<double> heights, double height) {
-  std::erase_if(heights, [&](double z) { return std::abs(z - height) > near_height; });
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  return *middle;
 }
 
 // With a margin that no point lies in.
@@ -83,14 +77,12 @@ PlanImage covered_image(const Cloud& cloud, double low, double high, const PlanI
   return image;
 }
 
-// Covered over the whole height, or above doors and windows: a lintel ends a room too. A pixel to each side is theirs.
+// Walls reach the ceiling, wardrobes do not; a lintel ends a room too. A pixel to each side is theirs.
 PlanImage wall_image(const Cloud& cloud, const StoreyHeights& heights, const PlanImage& empty, double min_coverage) {
   const double height = heights.ceiling - heights.floor;
-  PlanImage walls = covered_image(cloud, heights.floor + wall_band, heights.ceiling - wall_band, empty, min_coverage);
-  const PlanImage above = covered_image(cloud, heights.floor + lintel_from * height, heights.floor + lintel_to * height,
-                                        empty, min_coverage);
-  for (std::size_t i = 0; i < walls.values.size(); ++i) walls.values[i] |= above.values[i];
-  return dilated(walls, 1);
+  return dilated(covered_image(cloud, heights.floor + lintel_from * height, heights.floor + lintel_to * height, empty,
+                               min_coverage),
+                 1);
 }
 
 WallPoints wall_points(const Cloud& cloud, const StoreyHeights& heights) {
@@ -121,6 +113,22 @@ void set_heights(const Cloud& cloud, const StoreyHeights& heights, const PlanIma
   }
 }
 
+// What stands out into the room from its border, thin and short, parts nothing: the side of a shelf, the leaf of a
+// door.
+void drop_spurs(PlanImage& rooms, std::int32_t number) {
+  PlanImage closed = rooms;
+  for (auto& v : closed.values) v = v == number ? 1 : 0;
+  closed = eroded(dilated(closed, spur_width), spur_width);
+  for (std::size_t i = 0; i < closed.values.size(); ++i)
+    if (rooms.values[i] != 0) closed.values[i] = 0;
+  std::vector<std::size_t> sizes;
+  const PlanImage spurs = components(closed, sizes);
+  const auto extents = extents_of(spurs, sizes.size());
+  for (std::size_t i = 0; i < spurs.values.size(); ++i)
+    if (const auto k = spurs.values[i]; k > 0 && extents[static_cast<std::size_t>(k - 1)] * rooms.pixel <= spur_length)
+      rooms.values[i] = number;
+}
+
 // Each room's squares have its number; the borders of those that are large enough.
 std::vector<PlanPolygon> room_borders(const PlanImage& inside, double min_area, PlanImage& rooms,
                                       std::vector<std::int32_t>& numbers) {
@@ -129,6 +137,7 @@ std::vector<PlanPolygon> room_borders(const PlanImage& inside, double min_area, 
   std::vector<PlanPolygon> borders;
   for (std::size_t k = 0; k < sizes.size(); ++k) {
     if (static_cast<double>(sizes[k]) * inside.pixel * inside.pixel < min_area) continue;
+    drop_spurs(rooms, static_cast<std::int32_t>(k + 1));
     PlanPolygon border = border_of(rooms, static_cast<std::int32_t>(k + 1));
     std::erase_if(border.holes, [&](const PlanRing& hole) { return PlanPolygon{hole, {}}.area() > -min_area; });
     borders.push_back(std::move(border));
@@ -149,23 +158,6 @@ double direction_of(const std::vector<PlanPolygon>& borders, double tolerance) {
 
 }  // namespace
 
-StoreyHeights storey_heights(const Cloud& cloud, double percentile) {
-  std::vector<double> heights;
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (is_level(cloud, i)) heights.push_back(cloud.points[i].z());
-  constexpr std::size_t least = 100;
-  if (heights.size() < least)
-    throw Error(fmt::format("{} points of floor and ceiling are too few for their heights", heights.size()),
-                "a cloud with z up is needed, of a whole storey");
-  std::sort(heights.begin(), heights.end());
-  const auto rank = static_cast<std::size_t>(percentile * static_cast<double>(heights.size() - 1));
-  StoreyHeights result{median_near(heights, heights[rank]), median_near(heights, heights[heights.size() - 1 - rank])};
-  if (result.ceiling - result.floor < 1)
-    throw Error(fmt::format("floor and ceiling are {:.2f} m apart", result.ceiling - result.floor),
-                "a cloud with z up is needed, of a whole storey");
-  return result;
-}
-
 std::vector<PlanRoom> density_rooms(const Cloud& cloud, const StoreyHeights& heights, const DensityLimits& limits,
                                     const Context& context) {
   const PlanImage empty = empty_image(cloud, limits.pixel, limits.closing + limits.pixel);
@@ -175,6 +167,8 @@ std::vector<PlanRoom> density_rooms(const Cloud& cloud, const StoreyHeights& hei
   const PlanImage walls = wall_image(cloud, heights, empty, limits.min_coverage);
   for (std::size_t i = 0; i < inside.values.size(); ++i)
     if (walls.values[i] != 0) inside.values[i] = 0;
+  // What stands free in a room (columns, cupboards) before what is narrow: the gap between it and a wall is room.
+  fill_holes(inside, static_cast<std::size_t>(limits.min_room_area / (limits.pixel * limits.pixel)));
   // Outliers and the insides of walls go; corners that squares cut off a turned plan come back.
   const PlanImage wide = dilated(eroded(inside, opening), 2 * opening);
   for (std::size_t i = 0; i < inside.values.size(); ++i) inside.values[i] &= wide.values[i];

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <limits>
 
 #include "modules/baseline/density_plan.hpp"
 #include "modules/baseline/ear_clipping.hpp"
+#include "modules/baseline/storey_heights.hpp"
 
 namespace atrium::baseline {
 namespace {
@@ -75,17 +76,20 @@ PlanPolygon oriented(PlanPolygon polygon) {
   return polygon;
 }
 
-// The plan with the rooms' heights filled in; floors become rooms where there are none.
-FloorPlan completed(const FloorPlan& plan, const std::optional<StoreyHeights>& heights, double height) {
+// The plan with the rooms' heights filled in; floors become rooms where there are none. `heights`: none, one for all,
+// or one per storey.
+FloorPlan completed(const FloorPlan& plan, const std::vector<StoreyHeights>& heights, double height) {
   FloorPlan result = plan;
   std::size_t count = 0;
-  for (auto& storey : result.storeys) {
+  for (std::size_t k = 0; k < result.storeys.size(); ++k) {
+    auto& storey = result.storeys[k];
     if (storey.rooms.empty())
       for (const auto& floor : storey.floors) storey.rooms.push_back({"", floor, 0});
     double usual = storey.height > 0 ? storey.height : height;
-    if (!(storey.height > 0) && heights) {
-      usual = heights->ceiling - heights->floor;
-      if (result.storeys.size() == 1) storey.elevation = heights->floor;
+    if (!(storey.height > 0) && !heights.empty()) {
+      const StoreyHeights& own = heights.size() == result.storeys.size() ? heights[k] : heights.front();
+      usual = own.ceiling - own.floor;
+      if (heights.size() == result.storeys.size()) storey.elevation = own.floor;
     }
     for (auto& room : storey.rooms) {
       check_ring(room.polygon.outline, storey.index);
@@ -100,28 +104,66 @@ FloorPlan completed(const FloorPlan& plan, const std::optional<StoreyHeights>& h
   return result;
 }
 
-std::optional<StoreyHeights> heights_of(const ExtrudedPlan::In& in, double percentile) {
-  if (!in.cloud) return {};
-  StoreyHeights heights = storey_heights(*in.cloud, percentile);
-  if (in.plan) {
-    const double shift = in.cloud->origin.z() - in.plan->origin.z();
-    heights.floor += shift;
-    heights.ceiling += shift;
+// The cloud's storeys, lowest first; points of one only if there are several.
+std::vector<Cloud> storeys_of(const Cloud& cloud, std::vector<double> bounds) {
+  constexpr double beyond = std::numeric_limits<double>::infinity();
+  bounds.insert(bounds.begin(), -beyond);
+  bounds.push_back(beyond);
+  std::vector<Cloud> storeys;
+  for (std::size_t k = 0; k + 1 < bounds.size(); ++k)
+    storeys.push_back(between_heights(cloud, bounds[k], bounds[k + 1]));
+  return storeys;
+}
+
+std::vector<StoreyHeights> heights_of(const Cloud& cloud, const FloorPlan& plan, double percentile, Context& context) {
+  const auto bounds = storey_bounds(cloud);
+  std::vector<StoreyHeights> heights;
+  if (bounds.size() + 1 == plan.storeys.size()) {
+    for (const auto& storey : storeys_of(cloud, bounds)) heights.push_back(storey_heights(storey, percentile));
+  } else {
+    heights.push_back(storey_heights(cloud, percentile));
+    const bool needed =
+        std::any_of(plan.storeys.begin(), plan.storeys.end(), [](const auto& s) { return !(s.height > 0); });
+    if (needed)
+      context.warn(
+          fmt::format("the plan has {} storeys, the cloud shows {}: heights that the plan does not know are "
+                      "those of all of the cloud",
+                      plan.storeys.size(), bounds.size() + 1));
+  }
+  for (auto& h : heights) {
+    const double shift = cloud.origin.z() - plan.origin.z();
+    h.floor += shift;
+    h.ceiling += shift;
   }
   return heights;
 }
 
-FloorPlan drawn_plan(const Cloud& cloud, const StoreyHeights& heights, const ExtrudedPlan::Params& params,
-                     const Context& context) {
+PlanStorey drawn_storey(const Cloud& cloud, const ExtrudedPlan::Params& params, const Context& context) {
   const DensityLimits limits{params.percentile,    params.pixel,     params.closing,    params.min_coverage,
                              params.min_room_area, params.tolerance, params.snap_angle, params.reach};
+  const StoreyHeights heights = storey_heights(cloud, params.percentile);
+  PlanStorey storey;
+  storey.elevation = heights.floor;
+  storey.height = heights.ceiling - heights.floor;
+  storey.rooms = density_rooms(cloud, heights, limits, context);
+  return storey;
+}
+
+FloorPlan drawn_plan(const Cloud& cloud, const ExtrudedPlan::Params& params, const Context& context) {
   FloorPlan plan;
   plan.origin = cloud.origin;
-  plan.storeys.resize(1);
-  plan.storeys[0].elevation = heights.floor;
-  plan.storeys[0].height = heights.ceiling - heights.floor;
-  plan.storeys[0].rooms = density_rooms(cloud, heights, limits, context);
-  if (plan.storeys[0].rooms.empty())
+  const auto bounds = storey_bounds(cloud);
+  if (bounds.empty()) {
+    plan.storeys.push_back(drawn_storey(cloud, params, context));
+  } else {
+    for (const auto& storey : storeys_of(cloud, bounds)) plan.storeys.push_back(drawn_storey(storey, params, context));
+  }
+  std::size_t rooms = 0;
+  for (std::size_t k = 0; k < plan.storeys.size(); ++k) {
+    plan.storeys[k].index = static_cast<std::int32_t>(k);
+    rooms += plan.storeys[k].rooms.size();
+  }
+  if (rooms == 0)
     throw Error("the cloud shows no room",
                 "a ceiling must have been seen; 'closing' and 'pixel' may be too small for it");
   return plan;
@@ -132,9 +174,14 @@ FloorPlan drawn_plan(const Cloud& cloud, const StoreyHeights& heights, const Ext
 ExtrudedPlan::Out ExtrudedPlan::run(const In& in, const Params& params, Context& context) {
   if (!in.plan && !in.cloud)
     throw Error("there is neither a plan nor a cloud", "wire 'plan' (io.read_layout reads one) or 'cloud'");
-  const auto heights = heights_of(in, params.percentile);
   Out out;
-  out.plan = in.plan ? completed(*in.plan, heights, params.height) : drawn_plan(*in.cloud, *heights, params, context);
+  if (in.plan) {
+    std::vector<StoreyHeights> heights;
+    if (in.cloud) heights = heights_of(*in.cloud, *in.plan, params.percentile, context);
+    out.plan = completed(*in.plan, heights, params.height);
+  } else {
+    out.plan = drawn_plan(*in.cloud, params, context);
+  }
   out.mesh.origin = out.plan.origin;
   Extrusion extrusion(out.mesh);
   for (const auto& storey : out.plan.storeys)

@@ -12,14 +12,19 @@ namespace atrium::baseline {
 /// its rooms are extruded, or a storey's floors where it has no rooms. A height that the plan does not know is the
 /// cloud's if there is one, else `height`.
 ///
-/// With a cloud alone the plan is drawn from it: z up and one storey, as the alignment steps give it. Floor and ceiling
-/// are found as percentiles of the points' heights. An image of the plan shows where a ceiling was seen, less the
-/// pixels that points cover over most of the height, or of its part above doors (the density image of the field: Okorn
-/// et al. 2010; here shares of the height instead of counts, which fall with the distance from the scanner). Each
-/// connected piece is a room; its border is simplified (Douglas and Peucker 1973), turned into the plan's main
-/// direction where it nearly runs along it (Manhattan), and moved onto the median of the wall points before it. Its
-/// ceiling stands at the median height over it. Sloped ceilings, openings and storeys are beyond this way, as they are
+/// With a cloud alone the plan is drawn from it: z up, as the alignment steps give it. Storeys are told apart in the
+/// profile of the heights (a slab: what looks down, and at most 1 m above it what looks up); a storey's floor and
+/// ceiling are found as percentiles of its points' heights. An image of its plan shows where a ceiling was seen, less
+/// the pixels that points cover from above doors and wardrobes (84 % of the height) up to the ceiling (the density
+/// image of the field: Okorn et al. 2010; here shares of the height instead of counts, which fall with the distance
+/// from the scanner). Each connected piece is a room; what stands free in it, or out into it, thin and short, is none
+/// of its border, which is simplified (Douglas and Peucker 1973), turned into the plan's main direction where it nearly
+/// runs along it (Manhattan), and moved onto the median of the wall points before it. Its ceiling stands at the median
+/// height over it. Sloped ceilings, stairwells (no ceiling, so no room) and openings are beyond this way, as they are
 /// beyond its kind.
+///
+/// A plan without heights takes the cloud's, storey by storey if the cloud shows as many as the plan has; else a
+/// warning says so, and the heights of the lowest floor and the highest ceiling stand for all.
 ///
 /// Every room is a closed prism seen from inside: floor, ceiling and one wall per side, with classes, storeys and one
 /// primitive each. Errors: neither input; a plan without rooms and floors, with a ring that has less than three corners
@@ -55,12 +60,12 @@ struct ExtrudedPlan {
   static constexpr auto params = std::tuple{
       param(&Params::height, "height", metres, within(0.1, 100), "Floor to ceiling, where nothing tells it."),
       param(&Params::percentile, "percentile", ratio, within(0, 0.4),
-            "Floor and ceiling are looked for at this and at one minus this share of the points' heights."),
+            "Floor and ceiling are looked for at this and at one minus this share of a storey's points' heights."),
       param(&Params::pixel, "pixel", metres, within(0.005, 1), "Of the image: a little more than the points' spacing."),
       param(&Params::closing, "closing", metres, within(0, 1),
             "Gaps of the ceiling up to twice this are closed, as far as walls let it."),
       param(&Params::min_coverage, "min_coverage", ratio, within(0.01, 1),
-            "A pixel is a wall's if points cover at least this share of its height, or of that above doors."),
+            "A pixel is a wall's if points cover at least this share of its height above doors and wardrobes."),
       param(&Params::min_room_area, "min_room_area", square_metres, within(0, 1e6),
             "Smaller rooms are dropped, smaller holes (columns, cupboards) filled."),
       param(&Params::tolerance, "tolerance", metres, within(0.001, 10),

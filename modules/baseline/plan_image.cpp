@@ -1,5 +1,6 @@
 #include "modules/baseline/plan_image.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -75,6 +76,32 @@ PlanImage components(const PlanImage& image, std::vector<std::size_t>& sizes) {
       sizes.push_back(members.size());
     }
   return result;
+}
+
+std::vector<int> extents_of(const PlanImage& components, std::size_t count) {
+  std::vector<Eigen::AlignedBox2i> boxes(count);
+  for (int y = 0; y < components.height; ++y)
+    for (int x = 0; x < components.width; ++x)
+      if (const auto k = components.at(x, y); k > 0)
+        boxes[static_cast<std::size_t>(k - 1)].extend(Eigen::Vector2i(x, y));
+  std::vector<int> extents;
+  for (const auto& box : boxes) extents.push_back(box.isEmpty() ? 0 : box.sizes().maxCoeff() + 1);
+  return extents;
+}
+
+void fill_holes(PlanImage& image, std::size_t most) {
+  PlanImage gaps = image;
+  for (auto& v : gaps.values) v = v == 0 ? 1 : 0;
+  std::vector<std::size_t> sizes;
+  const PlanImage numbered = components(gaps, sizes);
+  std::vector<char> open(sizes.size() + 1, 0);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (x == 0 || y == 0 || x + 1 == image.width || y + 1 == image.height)
+        open[static_cast<std::size_t>(numbered.at(x, y))] = 1;
+  for (std::size_t i = 0; i < image.values.size(); ++i)
+    if (const auto k = static_cast<std::size_t>(numbered.values[i]); k > 0 && !open[k] && sizes[k - 1] <= most)
+      image.values[i] = 1;
 }
 
 PlanPolygon border_of(const PlanImage& image, std::int32_t value) {

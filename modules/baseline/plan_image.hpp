@@ -39,6 +39,12 @@ PlanImage eroded(const PlanImage& image, int radius);
 /// squares of each, from number 1 on.
 PlanImage components(const PlanImage& image, std::vector<std::size_t>& sizes);
 
+/// The longer side of the box around each component, in squares. `count`: how many there are.
+std::vector<int> extents_of(const PlanImage& components, std::size_t count);
+
+/// Sets the squares that are 0 to 1 where at most `most` of them hang together, none of them at the image's border.
+void fill_holes(PlanImage& image, std::size_t most);
+
 /// The borders of the squares with `value`: outlines counter-clockwise, then holes clockwise, corner by corner of the
 /// squares. Needs one component.
 PlanPolygon border_of(const PlanImage& image, std::int32_t value);

@@ -72,6 +72,7 @@ class Collapse {
     }
     return result();
   }
+  bool too_far() const { return too_far_; }
 
  private:
   std::int32_t region(std::uint32_t face) const { return partition_.region[face]; }
@@ -157,7 +158,7 @@ class Collapse {
     return !kinds_[v].fixed && kinds_[v].low == edge.low && kinds_[v].high == edge.high;
   }
 
-  bool find_move(std::uint32_t u, const Edge& edge, Move& move) const {
+  bool find_move(std::uint32_t u, const Edge& edge, Move& move) {
     const std::uint32_t v = edge.other;
     const bool moves_u = may_move(u, edge), moves_v = may_move(v, edge);
     if (!moves_u && !moves_v) return false;
@@ -170,7 +171,9 @@ class Collapse {
     move.place = moves_u && moves_v ? free_place(sum, u, v) : places_[moves_u ? v : u];
     move.error = sum.at(move.place);
     move.weight = sum.weight;
-    return is_near(surface, move.place) && is_near(border, move.place);
+    const bool near = is_near(surface, move.place) && is_near(border, move.place);
+    too_far_ = too_far_ || !near;
+    return near;
   }
   // Each by itself: a large surface does not make up for a border that is cut short.
   bool is_near(const QuadricError& error, const Vector3d& place) const {
@@ -195,6 +198,7 @@ class Collapse {
   }
   void fill_queue() {
     queue_ = {};
+    too_far_ = false;
     for (std::uint32_t v = 0; v < places_.size(); ++v) {
       edges_of(v);
       for (const auto& edge : edges_)
@@ -348,6 +352,7 @@ class Collapse {
   std::vector<std::uint32_t> stamps_;              // how often a vertex changed
   std::priority_queue<Candidate> queue_;
   std::size_t left_ = 0;
+  bool too_far_ = false;  // whether max_error kept an edge, this time round
   std::vector<std::uint32_t> marks_;
   std::uint32_t mark_ = 0;
   std::vector<std::uint32_t> shared_;  // triangles of the edge at hand
@@ -357,8 +362,11 @@ class Collapse {
 }  // namespace
 
 Mesh collapsed_by_planes(const Mesh& mesh, const FaceNeighbours& neighbours, const PlanarPartition& partition,
-                         const CollapseLimits& limits, const Context& context) {
-  return Collapse(mesh, neighbours, partition, limits, context).run();
+                         const CollapseLimits& limits, const Context& context, bool& too_far) {
+  Collapse collapse(mesh, neighbours, partition, limits, context);
+  Mesh result = collapse.run();
+  too_far = collapse.too_far();
+  return result;
 }
 
 }  // namespace atrium::baseline

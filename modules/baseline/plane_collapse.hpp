@@ -18,8 +18,8 @@ struct CollapseLimits {
 /// Collapses edges by least error, and the partition stays what it is: a vertex inside a region may go anywhere in its
 /// plane or into any neighbour, one on the border of two regions only along that border, one where three meet stays.
 /// An edge is kept if its collapse would change the topology (link condition) or turn a triangle over. The result has
-/// the sources' columns and the regions as primitives.
+/// the sources' columns and the regions as primitives. `too_far`: whether the largest error kept an edge at the end.
 Mesh collapsed_by_planes(const Mesh& mesh, const FaceNeighbours& neighbours, const PlanarPartition& partition,
-                         const CollapseLimits& limits, const Context& context);
+                         const CollapseLimits& limits, const Context& context, bool& too_far);
 
 }  // namespace atrium::baseline

@@ -27,11 +27,13 @@ PlaneQuadric::Out PlaneQuadric::run(const In& in, const Params& params, Context&
       planar_partition(mesh, neighbours, {params.distance, params.angle, params.min_area}, context);
   const CollapseLimits limits{target, params.max_error, params.border_weight, projection * params.distance};
   Out out;
-  out.mesh = collapsed_by_planes(mesh, neighbours, partition, limits, context);
+  bool too_far = false;
+  out.mesh = collapsed_by_planes(mesh, neighbours, partition, limits, context, too_far);
   out.planes = static_cast<std::int64_t>(partition.planes.size());
   if (target > 0 && out.mesh.triangles.size() > target)
-    context.warn(fmt::format("no edge can be collapsed any more at {} triangles, {} were wanted",
-                             out.mesh.triangles.size(), target));
+    context.warn(fmt::format("{} triangles are left, {} were wanted: {}", out.mesh.triangles.size(), target,
+                             too_far ? "the rest would move further than 'max_error' lets it"
+                                     : "the rest are borders and corners of planes, or hold the topology"));
   return out;
 }
 

@@ -18,7 +18,8 @@ namespace atrium::baseline {
 ///    or turn a triangle over, are kept, so a closed manifold stays one.
 ///
 /// It ends at the target, or where every other collapse would exceed `max_error`; without a target it goes as far as
-/// that. Borders and corners are never given up, so a target may be out of reach: a warning then says what is left.
+/// that. Borders and corners are never given up, so a target may be out of reach: a warning then says what is left, and
+/// whether it was `max_error` that ended it. The default leaves a noisy reconstruction far above a small target.
 ///
 /// `primitives` is the region, by falling area, -1 for free triangles; classes and storeys are those of the triangles
 /// that are left, colours those of the vertices. The same bytes with any number of threads. Where all triangles are

@@ -202,12 +202,16 @@ std::vector<std::size_t> simplified(const PlanRing& ring, double tolerance) {
 
 PlanRing straight_outline(const PlanRing& ring, double direction, const WallPoints& walls,
                           const OutlineLimits& limits) {
-  std::vector<Side> sides = sides_of(ring, direction, walls, limits);
-  join_sides(sides, limits.tolerance);
-  drop_chamfers(sides, 3 * limits.tolerance);
-  PlanRing result = cut(sides);
-  if (is_simple(result)) return result;
-  result.clear();
+  OutlineLimits coarser = limits;
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    std::vector<Side> sides = sides_of(ring, direction, walls, coarser);
+    join_sides(sides, coarser.tolerance);
+    drop_chamfers(sides, 3 * coarser.tolerance);
+    PlanRing result = cut(sides);
+    if (is_simple(result)) return result;
+    coarser.tolerance *= 1.5;
+  }
+  PlanRing result;
   for (const auto i : simplified(ring, limits.tolerance)) result.push_back(ring[i]);
   return result;
 }

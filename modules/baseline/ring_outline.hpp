@@ -27,7 +27,8 @@ double refined_direction(double direction, const WallPoints& walls);
 
 /// A ring of few straight sides for one of many small ones: simplified (Douglas and Peucker 1973), sides turned into
 /// the main direction, each moved onto the median of the wall points before it, and cut with its neighbours. Where that
-/// would make a ring that crosses itself, the simplified one is returned. The room is on the left of the ring.
+/// would make a ring that crosses itself, it is tried with 1.5 and 2.25 times the tolerance, and at last the simplified
+/// one is returned. The room is on the left of the ring.
 PlanRing straight_outline(const PlanRing& ring, double direction, const WallPoints& walls, const OutlineLimits& limits);
 
 /// Douglas and Peucker's simplification of a closed ring, as indices of the corners that stay, ascending.

@@ -206,6 +206,88 @@ TEST(ExtrudedPlan, DrawsTwoRoomsFromACloud) {
   EXPECT_NEAR(volume(out.mesh), -(18 + 11.2) * 2.5, 0.5);
 }
 
+/// Points on the sides of something that stands in the room, from below up to `top`.
+void scan_sides(Cloud& cloud, const PlanRing& ring, double from, double top, Random& random) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vector2d a = ring[i], d = ring[(i + 1) % ring.size()] - a;
+    const Vector2d outward = Vector2d(d.y(), -d.x()).normalized();
+    for (int k = 0; k < static_cast<int>(2500 * d.norm() * (top - from)); ++k) {
+      const Vector2d p = a + random.uniform() * d;
+      cloud.points.emplace_back(Vector3d(p.x(), p.y(), random.uniform(from, top)).cast<float>());
+      cloud.normals.emplace_back(static_cast<float>(outward.x()), static_cast<float>(outward.y()), 0.0F);
+    }
+  }
+}
+
+TEST(ExtrudedPlan, FurnitureMakesNoCorners) {
+  const PlanRing ell{{0, 0}, {6, 0}, {6, 3}, {3, 3}, {3, 5}, {0, 5}};
+  Cloud cloud;
+  Random random(11);
+  scan_room(cloud, ell, 0, 2.6, 0.004, random);
+  scan_sides(cloud, rectangle(1, 4.4, 2.5, 5), 0, 2.1, random);         // a wardrobe at a wall
+  scan_sides(cloud, rectangle(5.35, 1.2, 5.75, 1.6), 0, 2.55, random);  // a column just before one
+  scan_sides(cloud, rectangle(4.5, 2.6, 4.54, 3), 0, 2.55, random);     // the side of a shelf that reaches the ceiling
+  const auto out = extruded({}, cloud);
+  ASSERT_EQ(out.plan.storeys.size(), 1U);
+  ASSERT_EQ(out.plan.storeys[0].rooms.size(), 1U);
+  const auto& found = out.plan.storeys[0].rooms[0].polygon;
+  EXPECT_EQ(found.outline.size(), 6U);
+  EXPECT_TRUE(found.holes.empty());
+  for (const auto& corner : ell) EXPECT_LT(nearest_corner(found.outline, corner), 0.03);
+}
+
+TEST(ExtrudedPlan, DrawsEachStoreyByItself) {
+  const std::vector<PlanRing> rooms{rectangle(0, 0, 5, 4), rectangle(0, 0, 3, 4)};
+  for (const bool with_normals : {true, false}) {
+    Cloud cloud;
+    cloud.origin = {10, 20, 30};
+    Random random(2);
+    scan_room(cloud, rooms[0], 0, 2.5, 0.004, random);
+    scan_room(cloud, rooms[1], 2.8, 5.4, 0.004, random);
+    scan_sides(cloud, rectangle(2, 2, 2.5, 2.5), 0, 0.75, random);
+    if (!with_normals) cloud.normals.clear();
+    const auto out = extruded({}, cloud);
+    ASSERT_EQ(out.plan.storeys.size(), 2U) << with_normals;
+    EXPECT_NEAR(out.plan.storeys[0].elevation, 0, 0.01);
+    EXPECT_NEAR(out.plan.storeys[1].elevation, 2.8, 0.01);
+    EXPECT_NEAR(out.plan.storeys[1].height, 2.6, 0.02);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_EQ(out.plan.storeys[k].index, static_cast<int>(k));
+      ASSERT_EQ(out.plan.storeys[k].rooms.size(), 1U);
+      EXPECT_NEAR(out.plan.storeys[k].rooms[0].polygon.area(), PlanPolygon({rooms[k], {}}).area(), 0.6);
+    }
+    if (!with_normals) continue;
+    // A plan of both storeys takes its heights from them; one of three is told that they do not fit.
+    FloorPlan plan;
+    plan.origin = cloud.origin;
+    for (int k = 0; k < 2; ++k) {
+      plan.storeys.emplace_back();
+      plan.storeys.back().index = k;
+      plan.storeys.back().rooms.push_back({"", {rooms[static_cast<std::size_t>(k)], {}}, 0});
+    }
+    const auto given = extruded(plan, cloud);
+    EXPECT_NEAR(given.plan.storeys[1].elevation, 2.8, 0.01);
+    EXPECT_NEAR(given.plan.storeys[0].height, 2.5, 0.02);
+    plan.storeys.push_back(plan.storeys[1]);
+    EXPECT_NEAR(extruded(plan, cloud).plan.storeys[0].height, 5.4, 0.02);
+  }
+}
+
+TEST(ExtrudedPlan, AMezzanineAndALowSlabAreNoStorey) {
+  // A large table, a bed and a hanging ceiling: level, but too low to stand under, or too small.
+  Cloud cloud;
+  Random random(4);
+  scan_room(cloud, rectangle(0, 0, 5, 4), 0, 2.6, 0.003, random);
+  for (int i = 0; i < 4000; ++i) {
+    cloud.points.emplace_back(static_cast<float>(random.uniform(1, 3)), static_cast<float>(random.uniform(1, 3)),
+                              0.75F);
+    cloud.normals.emplace_back(0.0F, 0.0F, 1.0F);
+    cloud.points.emplace_back(static_cast<float>(random.uniform(1, 3)), static_cast<float>(random.uniform(1, 3)), 2.2F);
+    cloud.normals.emplace_back(0.0F, 0.0F, -1.0F);
+  }
+  EXPECT_EQ(extruded({}, cloud).plan.storeys.size(), 1U);
+}
+
 TEST(ExtrudedPlan, NeedsNoNormals) {
   Cloud cloud;
   Random random(3);
