@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   cli::add_run(app, exit_code);
   cli::add_sweep(app, exit_code);
   cli::add_graph(app, exit_code);
+  cli::add_report(app, exit_code);
   cli::add_schema(app, exit_code);
   try {
     app.parse(argc, argv);

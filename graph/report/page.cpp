@@ -1,0 +1,247 @@
+#include "graph/report/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <unordered_map>
+
+#include "graph/api/context.hpp"
+#include "graph/pipeline/pipeline.hpp"
+
+namespace atrium::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr std::string_view data_mark = "<!--atrium:data-->";
+constexpr std::string_view files_mark = "<!--atrium:files-->";
+
+Json axes_json(const SweepRecord& record) {
+  Json axes = Json::array();
+  for (const auto& axis : record.axes) {
+    Json choices = Json::array();
+    for (const auto& choice : axis.choices) {
+      Json set = Json::object();
+      for (const auto& [target, value] : choice.set) set[target] = value;
+      choices.push_back({{"label", choice.label}, {"set", std::move(set)}});
+    }
+    axes.push_back({{"name", axis.name}, {"choices", std::move(choices)}});
+  }
+  return axes;
+}
+
+Json metrics_json(const SweepRecord& record) {
+  Json metrics = Json::array();
+  for (const auto& metric : record.metrics) {
+    Json entry{{"name", metric.name}, {"unit", metric.unit}};
+    if (metric.digits) entry["digits"] = *metric.digits;
+    metrics.push_back(std::move(entry));
+  }
+  return metrics;
+}
+
+/// The parameters that are not the same in all variants: address, distinct values, and which variant has which (-1:
+/// it has no such parameter).
+Json parameters_json(const SweepRecord& record) {
+  std::vector<std::string> order;
+  std::unordered_map<std::string, std::vector<const std::string*>> values;
+  for (std::size_t v = 0; v < record.variants.size(); ++v)
+    for (const auto& [address, value] : record.variants[v].run.parameters) {
+      auto [known, fresh] = values.try_emplace(address);
+      if (fresh) {
+        order.push_back(address);
+        known->second.assign(record.variants.size(), nullptr);
+      }
+      known->second[v] = &value;
+    }
+  Json parameters = Json::array();
+  for (const auto& address : order) {
+    const auto& of = values.at(address);
+    std::map<std::string, int> index;
+    Json distinct = Json::array();
+    Json which = Json::array();
+    for (const auto* value : of) {
+      if (value == nullptr) {
+        which.push_back(-1);
+        continue;
+      }
+      const auto [known, fresh] = index.try_emplace(*value, static_cast<int>(distinct.size()));
+      if (fresh) distinct.push_back(*value);
+      which.push_back(known->second);
+    }
+    const bool differs = std::any_of(which.begin(), which.end(), [&](const Json& i) { return i != which.front(); });
+    if (differs)
+      parameters.push_back({{"address", address}, {"values", std::move(distinct)}, {"of", std::move(which)}});
+  }
+  return parameters;
+}
+
+/// Without the path of the variant's folder: a report is read on other machines.
+std::string portable(std::string message, const fs::path& folder) {
+  const std::string path = fs::absolute(folder).lexically_normal().string() + "/";
+  for (auto at = message.find(path); at != std::string::npos; at = message.find(path, at))
+    message.erase(at, path.size());
+  return message;
+}
+
+double rounded(double seconds) { return std::round(seconds * 1e6) / 1e6; }
+
+/// Node types by name, and per variant [node, status, wall seconds, CPU seconds, peak memory].
+class NodeNames {
+ public:
+  Json times_of(const RunRecord& run) {
+    Json times = Json::array();
+    for (const auto& node : run.nodes) {
+      const auto [known, fresh] = index_.try_emplace(node.path, names_.size());
+      if (fresh) names_.push_back(node.path);
+      times.push_back({known->second, node.status, rounded(node.wall), rounded(node.cpu), node.peak_memory});
+    }
+    return times;
+  }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::vector<std::string> names_;
+  std::unordered_map<std::string, std::size_t> index_;
+};
+
+Json uses_json(const std::vector<Attachments::Use>& uses) {
+  Json json = Json::array();
+  for (const auto& use : uses) json.push_back({use.path, use.file});
+  return json;
+}
+
+Json cell_json(const SweepRecord::Cell& cell) {
+  if (const auto* number = std::get_if<double>(&cell)) return *number;
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  return nullptr;
+}
+
+Json variant_json(const SweepRecord& record, std::size_t v, const Attachments& attachments, NodeNames& nodes) {
+  const auto& variant = record.variants[v];
+  Json choices = Json::array();
+  for (const auto& axis : record.axes) {
+    const auto chosen = std::find_if(variant.run.choices.begin(), variant.run.choices.end(),
+                                     [&](const auto& choice) { return choice.first == axis.name; });
+    int index = -1;
+    for (std::size_t c = 0; c < axis.choices.size() && chosen != variant.run.choices.end(); ++c)
+      if (axis.choices[c].label == chosen->second) index = static_cast<int>(c);
+    choices.push_back(index);
+  }
+  Json cells = Json::array();
+  for (const auto& cell : variant.cells) cells.push_back(cell_json(cell));
+  Json json{{"id", variant.run.id}, {"status", variant.run.status}};
+  if (!variant.run.message.empty()) json["message"] = portable(variant.run.message, variant.run.folder);
+  json["choices"] = std::move(choices);
+  json["cells"] = std::move(cells);
+  json["nodes"] = nodes.times_of(variant.run);
+  json["pictures"] = uses_json(attachments.variants[v].pictures);
+  json["models"] = uses_json(attachments.variants[v].models);
+  return json;
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '<')
+      result += "&lt;";
+    else if (c == '&')
+      result += "&amp;";
+    else
+      result += c;
+  }
+  return result;
+}
+
+std::string read_page(const fs::path& page) {
+  std::ifstream stream(page, std::ios::binary);
+  if (!stream)
+    throw Error("the page that reports are written into is not there: " + page.string(),
+                "npm bundles it when Atrium is built: ./share/install-packages --report, then ./share/build");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+fs::path page_template() {
+  const fs::path program = fs::canonical("/proc/self/exe");
+  return program.parent_path().parent_path() / "share/atrium/report.html";
+}
+
+std::string page_data(const SweepRecord& record, const Attachments& attachments) {
+  NodeNames nodes;
+  Json variants = Json::array();
+  for (std::size_t v = 0; v < record.variants.size(); ++v)
+    variants.push_back(variant_json(record, v, attachments, nodes));
+  Json files = Json::array();
+  for (const auto& file : attachments.files) files.push_back({file.media_type, file.deflated});
+  auto notes = record.notes;
+  notes.insert(notes.end(), attachments.notes.begin(), attachments.notes.end());
+  const Json json{{"format", 1},
+                  {"atrium", framework_version()},
+                  {"title", record.title},
+                  {"summary", record.summary},
+                  {"sweep", record.sweep},
+                  {"axes", axes_json(record)},
+                  {"metrics", metrics_json(record)},
+                  {"parameters", parameters_json(record)},
+                  {"nodes", nodes.names()},
+                  {"files", std::move(files)},
+                  {"notes", std::move(notes)},
+                  {"variants", std::move(variants)}};
+  // In JSON "<" stands in texts only: no text can end the element that the JSON is in.
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<')
+      safe += "\\u003c";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+std::size_t write_page(const fs::path& target, const SweepRecord& record, const Attachments& attachments,
+                       const fs::path& page) {
+  const std::string text = read_page(page);
+  const auto data = text.find(data_mark);
+  const auto files = text.find(files_mark);
+  const auto title = text.find("<title>");
+  if (data == std::string::npos || files == std::string::npos || files < data || title > data)
+    throw Error(page.string() + " is no page of this version of Atrium", "build again: ./share/build");
+  AtomicFile file(target);
+  std::size_t size = 0;
+  const auto write = [&](std::string_view part) {
+    file.write(part);
+    size += part.size();
+  };
+  const std::string_view whole = text;
+  const std::size_t name = title + std::string_view("<title>").size();
+  write(whole.substr(0, name));
+  write(escaped(record.title) + " – ");
+  write(whole.substr(name, data - name));
+  write("<script type=\"application/json\" id=\"data\">");
+  write(page_data(record, attachments));
+  write("</script>");
+  const std::size_t after = data + data_mark.size();
+  write(whole.substr(after, files - after));
+  for (std::size_t f = 0; f < attachments.files.size(); ++f) {
+    write(fmt::format("<script type=\"text/plain\" id=\"file-{}\">", f));
+    write(attachments.files[f].base64);
+    write("</script>\n");
+  }
+  write(whole.substr(files + files_mark.size()));
+  file.commit();
+  return size;
+}
+
+}  // namespace atrium::report

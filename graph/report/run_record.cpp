@@ -1,0 +1,155 @@
+#include "graph/report/run_record.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "graph/pipeline/yaml_tree.hpp"
+
+namespace atrium::report {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+Fact read_fact(const json& entry) {
+  Fact fact{entry.value("name", ""), {}, entry.value("unit", "")};
+  const json& value = entry.at("value");
+  if (value.is_boolean())
+    fact.value = value.get<bool>();
+  else if (value.is_number_integer())
+    fact.value = value.get<std::int64_t>();
+  else if (value.is_string())
+    fact.value = value.get<std::string>();
+  else
+    fact.value = value.is_null() ? std::nan("") : value.get<double>();
+  return fact;
+}
+
+RunRecord::Node read_node(const json& entry) {
+  RunRecord::Node node{entry.at("node").get<std::string>(),
+                       entry.at("type").get<std::string>(),
+                       entry.at("status").get<std::string>(),
+                       entry.value("wall_seconds", 0.0),
+                       entry.value("cpu_seconds", 0.0),
+                       entry.value("peak_memory", std::uint64_t{0}),
+                       {}};
+  for (const auto& output : entry.value("outputs", json::array()))
+    node.outputs.push_back({output.at("port").get<std::string>(), output.value("hash", "")});
+  return node;
+}
+
+void read_files(const json& artefacts, RunRecord& record) {
+  for (const auto& file : artefacts)
+    record.files.push_back(
+        {file.at("path").get<std::string>(), file.at("bytes").get<std::uint64_t>(), file.value("hash", "")});
+}
+
+void read_nodes(const json& nodes, RunRecord& record) {
+  for (const auto& entry : nodes) {
+    record.nodes.push_back(read_node(entry));
+    if (record.message.empty() && record.nodes.back().status == "failed" && entry.contains("message"))
+      record.message = record.nodes.back().path + ": " + entry.at("message").get<std::string>();
+  }
+}
+
+/// result.json
+void read_variant(const json& result, RunRecord& record) {
+  record.id = result.at("id").get<std::string>();
+  record.status = result.at("status").get<std::string>();
+  record.message = result.value("message", "");
+  for (const auto& [axis, label] : result.at("choices").items())
+    record.choices.emplace_back(axis, label.get<std::string>());
+  read_nodes(result.at("nodes"), record);
+  for (const auto& output : result.at("outputs"))
+    for (const auto& fact : output.at("facts"))
+      record.metrics.push_back({output.at("name").get<std::string>(), read_fact(fact)});
+  read_files(result.at("artefacts"), record);
+}
+
+/// manifest.json
+void read_manifest(const json& manifest, RunRecord& record) {
+  record.status = manifest.at("status").get<std::string>();
+  if (!manifest.contains("nodes")) return;  // it was killed, or runs still
+  read_nodes(manifest.at("nodes"), record);
+  for (const auto& node : manifest.at("nodes")) read_files(node.value("artefacts", json::array()), record);
+  for (const auto& [name, output] : manifest.at("outputs").items())
+    for (const auto& fact : output.value("facts", json::array())) record.metrics.push_back({name, read_fact(fact)});
+}
+
+std::string text_of(const YamlNode& node) {
+  if (node.is_scalar()) return node.text;
+  std::string text;
+  for (const auto& item : node.items) text += (text.empty() ? "" : ", ") + text_of(item);
+  return node.is_sequence() ? "[" + text + "]" : text;
+}
+
+void read_parameters(const YamlNode& root, RunRecord& record) {
+  const auto add = [&](std::string address, const YamlNode& value) {
+    record.parameters.emplace_back(std::move(address), text_of(value));
+  };
+  if (const auto* seed = root.find("seed")) add("seed", seed->value);
+  if (const auto* versions = root.find("versions"))
+    for (const auto& version : versions->value.entries) add(version.key + "'s version", version.value);
+  const auto* nodes = root.find("nodes");
+  if (nodes == nullptr) return;
+  for (const auto& node : nodes->value.entries) {
+    if (const auto* type = node.value.find("type")) add(node.key + ".type", type->value);
+    if (const auto* in = node.value.find("in"))
+      for (const auto& port : in->value.entries) add(node.key + ".in." + port.key, port.value);
+    if (const auto* params = node.value.find("params"))
+      for (const auto& param : params->value.entries) add(node.key + "." + param.key, param.value);
+  }
+}
+
+}  // namespace
+
+json read_json(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw Error("cannot read " + file.string());
+  json result = json::parse(stream, nullptr, false);
+  if (!result.is_object()) throw Error(file.string() + " is no JSON file of Atrium");
+  return result;
+}
+
+std::string hash_of_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return {};
+  ContentHash hash;
+  std::vector<char> buffer(1U << 20U);
+  while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || file.gcount() > 0)
+    hash.bytes(buffer.data(), static_cast<std::size_t>(file.gcount()));
+  return hash.hex();
+}
+
+std::string name_of(const RunRecord::Metric& metric) {
+  return metric.fact.name.empty() ? metric.output : metric.output + "." + metric.fact.name;
+}
+
+RunRecord read_run(const fs::path& folder) {
+  RunRecord record;
+  record.folder = folder;
+  const bool variant = fs::exists(folder / "result.json");
+  const fs::path file = folder / (variant ? "result.json" : "manifest.json");
+  if (!fs::exists(file))
+    throw Error(folder.string() + " is no folder of a run: it has neither manifest.json nor result.json",
+                "`atrium run FILE --out FOLDER` makes one, `atrium sweep run` one per variant: FOLDER/variants/ID");
+  const json recorded = read_json(file);
+  try {
+    if (variant)
+      read_variant(recorded, record);
+    else
+      read_manifest(recorded, record);
+  } catch (const json::exception& error) {
+    throw Error(file.string() + " cannot be understood: " + error.what(),
+                "was it written by another version of Atrium?");
+  }
+  const YamlTree tree = read_yaml((folder / "resolved.yaml").string());
+  if (!tree.root)
+    throw Error((folder / "resolved.yaml").string() + ": " +
+                (tree.problems.empty() ? "is empty" : tree.problems.front().message));
+  read_parameters(*tree.root, record);
+  return record;
+}
+
+}  // namespace atrium::report
