@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   cli::add_nodes(app, exit_code);
   cli::add_run(app, exit_code);
   cli::add_sweep(app, exit_code);
+  cli::add_diff(app, exit_code);
   cli::add_graph(app, exit_code);
   cli::add_report(app, exit_code);
   cli::add_schema(app, exit_code);

@@ -12,8 +12,9 @@ export function makeDetails(data, getViewer) {
     const go = (beside) => { dialog.close(); viewer.open(variant, beside); };
     const button = (text, action) => h('button', { type: 'button', class: 'quiet', onclick: action }, text);
     const image = h('img', { class: 'preview', hidden: true, alt: '' });
-    if (variant.pictures.length > 0) urlOf(data, variant.pictures[0][1]).then((url) => { image.src = url; image.hidden = false; image.alt = variant.pictures[0][0]; });
-    dialog.replaceChildren(
+    const [name, file] = variant.pictures.find(([path]) => !path.endsWith('.svg')) ?? variant.pictures[0] ?? [];
+    if (name) urlOf(data, file).then((url) => { image.src = url; image.hidden = false; image.alt = name; });
+    dialog.replaceChildren(h('div', {},
       h('div', { class: 'bar' }, h('h3', {}, variant.label), variant.models.length > 0 ? [button('Show in 3D', () => go(false)), button('Beside in 3D', () => go(true))] : null,
         button('Close', () => dialog.close())),
       variant.status === 'ok' ? null : h('p', { class: 'note bad-note' }, h('strong', {}, variant.status), variant.message ? `: ${variant.message}` : ''),
@@ -22,7 +23,7 @@ export function makeDetails(data, getViewer) {
         h('div', {}, image, table('Varied', data.axes.map((axis) => [axis.title, labelAt(axis, variant)])),
           table('Parameters that differ', data.parameters.filter((p) => p.of[variant.index] >= 0).map((p) => [h('code', {}, p.address), p.values[p.of[variant.index]]]))),
         h('div', {}, table('Metrics', data.metrics.map((metric, i) => [metric.name, `${shown(variant.cells[i], metric.digits)} ${metric.unit}`])),
-          table('Nodes', variant.nodes.map(([node, status, wall, cpu]) => [data.nodes[node], status === 'ok' ? `${seconds(cpu)} CPU, ${seconds(wall)}` : status])))));
+          table('Nodes', variant.nodes.map(([node, status, wall, cpu]) => [data.nodes[node], status === 'ok' ? `${seconds(cpu)} CPU, ${seconds(wall)}` : status]))))));
     dialog.showModal();
     dialog.scrollTop = 0;
   };

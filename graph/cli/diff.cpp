@@ -1,0 +1,39 @@
+// atrium diff RUN RUN: what differs between two runs, or two variants of a sweep.
+#include <fmt/format.h>
+
+#include "graph/cli/verbs.hpp"
+#include "graph/report/difference.hpp"
+
+namespace atrium::cli {
+namespace {
+
+struct Options {
+  std::string a, b, pictures;
+  bool json = false, exit_code = false;
+};
+
+int diff(const Options& options) {
+  const report::RunRecord a = report::read_run(options.a);
+  const report::RunRecord b = report::read_run(options.b);
+  const report::Difference difference = report::compare(a, b, options.pictures);
+  fmt::print("{}", options.json ? report::as_json(difference) : report::as_text(difference));
+  return options.exit_code && !difference.same() ? failed : ok;
+}
+
+}  // namespace
+
+void add_diff(CLI::App& app, int& exit_code) {
+  auto* verb = app.add_subcommand(
+      "diff",
+      "Says what differs between two runs or variants: parameters, metrics, pictures, files, and the first node.");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("RUN", options->a, "the folder of a run, or of a variant (SWEEP/variants/ID)")->required();
+  verb->add_option("OTHER", options->b, "the other one")->required();
+  verb->add_option("--pictures", options->pictures, "write a picture for each that differs into this folder");
+  verb->add_flag("--json", options->json, "as JSON on stdout");
+  verb->add_flag("--exit-code", options->exit_code,
+                 "end with 1 if they differ (else 0 either way, as what was asked was said)");
+  verb->callback([options, &exit_code] { exit_code = diff(*options); });
+}
+
+}  // namespace atrium::cli
