@@ -10,6 +10,8 @@ export function readData() {
     axis.labels = axis.choices.map((choice) => shortLabel(axis, choice));
     axis.seed = axis.name === 'seed';
   });
+  // That a node type is there in some variants only is seen from the nodes' types.
+  data.parameters = data.parameters.filter((p) => !(p.address.endsWith("'s version") && p.values.length === 1));
   data.varying = data.axes.filter((axis) => axis.choices.length > 1);
   data.variants.forEach((variant) => { variant.label = labelOf(data, variant); });
   data.dimensions = dimensionsOf(data);
@@ -108,4 +110,4 @@ export async function urlOf(data, index) {
 }
 
 /** Okabe and Ito's colours (of series), and marks that differ without them. */
-export const COLOURS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#8c6d1f', '#7f7f7f'];
+export const COLOURS = Array.from({ length: 8 }, (_, i) => `var(--series-${i})`);

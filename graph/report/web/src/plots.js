@@ -165,7 +165,7 @@ export function makePlots(data, root, actions) {
     // Side by side, so that bars do not hide each other.
     const step = dimension.numeric ? Math.min(5, 16 / count) : Math.min(xs.width / (count + 1), 26);
     const shift = (index - (count - 1) / 2) * step;
-    const group = s('g', { stroke: entry.colour, fill: entry.colour, class: 'series' });
+    const group = s('g', { style: `color:${entry.colour}`, class: 'series' });
     if (dimension.numeric && !dimension.drawn && entry.groups.length > 1)
       group.append(s('path', { class: 'mean-line', d: entry.groups.map((g, i) => `${i ? 'L' : 'M'}${xs.at(g.place) + shift} ${y(g.mean)}`).join(''), fill: 'none' }));
     for (const g of entry.groups) {
@@ -206,7 +206,7 @@ export function makePlots(data, root, actions) {
 
 function keyMark(entry) {
   const mark = entry.mark(7, 7, 4.5);
-  return s('svg', { width: 14, height: 14, 'aria-hidden': 'true', fill: entry.colour }, mark);
+  return s('svg', { width: 14, height: 14, 'aria-hidden': 'true', class: 'series', style: `color:${entry.colour}` }, mark);
 }
 
 function scale(low, high, from, to) {
