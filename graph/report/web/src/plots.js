@@ -63,6 +63,7 @@ export function makePlots(data, root, actions) {
   function render() {
     const list = seriesList();
     log.element.hidden = !canLogarithm(dimension);
+    by.element.hidden = seriesAxes.every((axis) => axis === dimension.axis);
     legend.replaceChildren(...(series ? list.map((entry) => h('span', { class: 'key' }, keyMark(entry), entry.label)) : []));
     note.textContent = pooled();
     const wanted = metrics.filter((metric) => metric.name.toLowerCase().includes(search));
