@@ -1,5 +1,6 @@
 #pragma once
 #include "graph/api/node.hpp"
+#include "modules/synth/shared_params.hpp"
 #include "modules/types/simulated_scene.hpp"
 
 namespace atrium::synth {
@@ -35,11 +36,10 @@ struct Attic {
       param(&Params::knee_height, "knee_height", metres, within(0.3, 1.8), "Height of the walls below the slopes."),
       param(&Params::slope, "slope", degrees, within(25, 60), "Of the roof against the horizontal."),
       param(&Params::collar_height, "collar_height", metres, within(2.3, 20), "Floor to the flat part of the ceiling."),
-      param(&Params::inner_wall, "inner_wall", metres, within(0.02, 0.5), "Thickness of the wall between the rooms."),
+      inner_wall_param<Params>(),
       param(&Params::roof, "roof", metres, within(0.02, 1), "Depth of the windows' reveals."),
       param(&Params::dormer, "dormer", "Whether the west room has a dormer."),
-      param(&Params::furniture, "furniture", unitless, within(0, 3),
-            "How densely it is furnished: 0 empty, 1 an ordinary home."),
+      furniture_param<Params>(),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -1,16 +1,9 @@
 #include "modules/synth/flat.hpp"
 
 #include "modules/synth/furniture.hpp"
+#include "modules/synth/openings.hpp"
 
 namespace atrium::synth {
-namespace {
-
-Ring2 rectangle(double x0, double x1, double y0, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
-
-// Sides of a rectangle, in the order of its corners.
-enum Side { south, east, north, west };
-
-}  // namespace
 
 Flat::Out Flat::run(const In& /*in*/, const Params& p, Context& context) {
   const double w = p.width, d = p.depth, t = p.inner_wall, h = p.ceiling_height;
@@ -21,26 +14,19 @@ Flat::Out Flat::run(const In& /*in*/, const Params& p, Context& context) {
   const int bedroom = b.add_prism("bedroom", 0, rectangle(xs + t, w, 0, right), 0, h - p.ceiling_step);
   const int study = b.add_prism("study", 0, rectangle(xs + t, w, right + t, d), 0, h);
 
-  const auto door = [&](int room_a, Side side_a, int room_b, Side side_b, const Eigen::Vector2d& at) {
-    const int face = b.wall_of(room_a, side_a);
-    b.pierce("door", face, b.on_wall(face, at, 0.86, 0, 2.01), b.wall_of(room_b, side_b));
-  };
-  door(living, north, kitchen, south, {0.72 * xs, 0});
-  door(living, east, bedroom, west, {0, 0.7 * right});
-  door(kitchen, east, study, west, {0, left + t + 0.35 * (d - left - t)});
+  add_door(b, living, north, kitchen, south, {0.72 * xs, 0});
+  add_door(b, living, east, bedroom, west, {0, 0.7 * right});
+  add_door(b, kitchen, east, study, west, {0, left + t + 0.35 * (d - left - t)});
+  add_entrance(b, living, west, {0, 0.8 * left}, p.outer_wall);
+  const double middle = xs + t + 0.5 * (w - xs - t);
+  add_window(b, living, south, {0.4 * xs, 0}, 1.9, 0, 2.1, p.outer_wall);
+  add_window(b, living, west, {0, 0.35 * left}, 1.3, 0.9, 2.2, p.outer_wall);
+  add_window(b, kitchen, north, {0.5 * xs, 0}, 1.2, 1.05, 2.2, p.outer_wall);
+  add_window(b, bedroom, south, {middle, 0}, 1.4, 0.9, 2.15, p.outer_wall);
+  add_window(b, study, north, {middle, 0}, 1.4, 0.9, 2.15, p.outer_wall);
 
-  const auto window = [&](int room, Side side, const Eigen::Vector2d& at, double width, double sill, double top) {
-    const int face = b.wall_of(room, side);
-    b.pierce_outside("window", face, b.on_wall(face, at, width, sill, top), p.outer_wall);
-  };
-  const int entrance = b.wall_of(living, west);
-  b.pierce_outside("door", entrance, b.on_wall(entrance, {0, 0.8 * left}, 0.95, 0, 2.05), p.outer_wall, true);
-  window(living, south, {0.4 * xs, 0}, 1.9, 0, 2.1);
-  window(living, west, {0, 0.35 * left}, 1.3, 0.9, 2.2);
-  window(kitchen, north, {0.5 * xs, 0}, 1.2, 1.05, 2.2);
-  window(bedroom, south, {xs + t + 0.5 * (w - xs - t), 0}, 1.4, 0.9, 2.15);
-  window(study, north, {xs + t + 0.5 * (w - xs - t), 0}, 1.4, 0.9, 2.15);
-
+  // In the corner of the wall to the study and the outer one.
+  if (p.built_in > 0) add_wardrobe(b, bedroom, north, {w, right}, p.built_in, h - p.ceiling_step);
   Random random = context.random();
   furnish(b, living, RoomUse::living, p.furniture, h, random);
   furnish(b, kitchen, RoomUse::kitchen, p.furniture, h, random);

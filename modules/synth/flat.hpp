@@ -1,5 +1,6 @@
 #pragma once
 #include "graph/api/node.hpp"
+#include "modules/synth/shared_params.hpp"
 #include "modules/types/simulated_scene.hpp"
 
 namespace atrium::synth {
@@ -7,7 +8,8 @@ namespace atrium::synth {
 /// A furnished flat of four rooms: living room, kitchen, bedroom, study; three doors between them, a shut entrance
 /// door, a French window and four windows. Its inner walls are two faces each, the wall's thickness apart, and meet in
 /// T's that do not line up. Ceilings differ: living room and study have the given height, the kitchen is one step
-/// higher, the bedroom one lower. The outer corner of the living room's floor is (0, 0, 0).
+/// higher, the bedroom one lower. A built-in wardrobe may stand in the bedroom: what it hides stays true. The outer
+/// corner of the living room's floor is (0, 0, 0).
 struct Flat {
   static constexpr std::string_view type = "synth.flat";
   static constexpr std::string_view summary = "A furnished flat of four rooms with exact ground truth.";
@@ -23,6 +25,7 @@ struct Flat {
     double ceiling_step = 0.1;
     double inner_wall = 0.12;
     double outer_wall = 0.3;
+    double built_in = 0;
     double furniture = 1.0;
   };
   static constexpr auto inputs = std::tuple{};
@@ -33,11 +36,11 @@ struct Flat {
       param(&Params::ceiling_height, "ceiling_height", metres, within(2.4, 6), "Floor to ceiling in the living room."),
       param(&Params::ceiling_step, "ceiling_step", metres, within(0, 0.15),
             "How much higher the kitchen's and lower the bedroom's ceiling is."),
-      param(&Params::inner_wall, "inner_wall", metres, within(0.02, 0.5), "Thickness of the walls between rooms."),
-      param(&Params::outer_wall, "outer_wall", metres, within(0.02, 1),
-            "Depth of the reveals of windows and entrance."),
-      param(&Params::furniture, "furniture", unitless, within(0, 3),
-            "How densely it is furnished: 0 empty, 1 an ordinary home."),
+      inner_wall_param<Params>(),
+      outer_wall_param<Params>(),
+      param(&Params::built_in, "built_in", metres, within(0, 10),
+            "Length of a wardrobe, 0.6 m deep and up to the ceiling, along the bedroom's wall to the study; 0: none."),
+      furniture_param<Params>(),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <optional>
 
+#include "graph/api/error.hpp"
+
 namespace atrium::synth {
 namespace {
 
@@ -77,6 +79,13 @@ void build_counter(const Frame& f, double w, double d, double h) {
   f.box(-w / 2, w / 2, -d / 2, d / 2 - 0.02, 0.1, h - 0.04, white);
   f.box(-w / 2, w / 2, -d / 2, d / 2, h - 0.04, h, steel);
 }
+void build_workplace(const Frame& f, double w, double d, double h) {
+  const double top = h - 0.5;  // a screen stands on the desk, drawers under it
+  build_table(f, w, d, top);
+  f.box(w / 2 - 0.5, w / 2 - 0.08, -d / 2 + 0.05, d / 2 - 0.08, 0.04, top - 0.06, steel);
+  f.box(-0.32, 0.28, -0.1, -0.06, top + 0.1, h, dark_wood);
+  f.box(-0.06, 0.02, -0.12, -0.08, top, top + 0.1, dark_wood);
+}
 void build_lamp(const Frame& f, double w, double /*d*/, double h) {
   f.building.add_lathe(f.object, f.at,
                        {{w / 2, f.floor},
@@ -112,6 +121,10 @@ constexpr Piece cabinet{"cabinet", 0.9, 0.45, 1.2, true, build_block};
 constexpr Piece nightstand{"nightstand", 0.45, 0.4, 0.5, true, build_block};
 constexpr Piece fridge{"refrigerator", 0.6, 0.62, 1.8, true, build_block};
 constexpr Piece counter{"counter", 2.2, 0.62, 0.9, true, build_counter};
+constexpr Piece workplace{"desk", 1.6, 0.8, 1.22, true, build_workplace};
+constexpr Piece cupboard{"cupboard", 1.2, 0.45, 1.95, true, build_block};
+constexpr Piece sideboard{"cupboard", 1.6, 0.45, 0.78, true, build_block};
+constexpr Piece conference_table{"table", 2.6, 1.2, 0.75, false, build_table};
 constexpr Piece lamp{"lamp", 0.34, 0.34, 1.6, false, build_lamp};
 constexpr Piece plant{"plant", 0.6, 0.6, 1.1, false, build_plant};
 
@@ -122,6 +135,9 @@ std::vector<Piece> pieces_of(RoomUse use) {
     case RoomUse::kitchen: return {counter, fridge, dining_table, chair, chair, chair, chair};
     case RoomUse::bedroom: return {bed, wardrobe, nightstand, nightstand, low_shelf, chair, lamp};
     case RoomUse::study: return {desk, shelf, shelf, cabinet, chair, chair, plant};
+    case RoomUse::office: return {workplace, workplace, cupboard, cupboard, shelf, sideboard, chair, chair, plant};
+    case RoomUse::meeting:
+      return {conference_table, sideboard, cupboard, chair, chair, chair, chair, chair, chair, chair, chair, plant};
     case RoomUse::hall: return {cabinet, low_shelf, plant};
   }
   return {};
@@ -138,20 +154,6 @@ bool is_free(const Building::Room& room, const Footprint& place) {
   return true;
 }
 
-Footprint against_wall(const Ring2& outline, const Piece& piece, Random& random) {
-  const auto side = random.index(outline.size());
-  const Eigen::Vector2d &a = outline[side], &b = outline[(side + 1) % outline.size()];
-  const Eigen::Vector2d along = (b - a).normalized(), inwards(-along.y(), along.x());
-  const double gap = random.uniform(0.005, 0.04);
-  const double u =
-      random.uniform(piece.width / 2 + 0.02, std::max(piece.width / 2 + 0.03, (b - a).norm() - piece.width / 2 - 0.02));
-  // The piece's front looks along its +y: into the room.
-  return {a + along * u + inwards * (gap + piece.depth / 2),
-          {piece.width / 2, piece.depth / 2},
-          std::atan2(along.y(), along.x()),
-          piece.height};
-}
-
 Footprint anywhere(const Ring2& outline, const Piece& piece, Random& random) {
   Eigen::Vector2d low = outline.front(), high = outline.front();
   for (const auto& p : outline) {
@@ -163,6 +165,24 @@ Footprint anywhere(const Ring2& outline, const Piece& piece, Random& random) {
   const double quarter = std::numbers::pi / 2 * static_cast<double>(random.index(4));
   const double yaw = random.uniform() < 0.5 ? quarter : random.uniform(0, 2 * std::numbers::pi);
   return {at, {piece.width / 2, piece.depth / 2}, yaw, piece.height};
+}
+
+Footprint against_wall(const Ring2& outline, const Piece& piece, Random& random) {
+  std::vector<std::size_t> sides;  // the strips of curved walls are no place for it
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    if ((outline[(i + 1) % outline.size()] - outline[i]).norm() > 0.3) sides.push_back(i);
+  if (sides.empty()) return anywhere(outline, piece, random);
+  const auto side = sides[random.index(sides.size())];
+  const Eigen::Vector2d &a = outline[side], &b = outline[(side + 1) % outline.size()];
+  const Eigen::Vector2d along = (b - a).normalized(), inwards(-along.y(), along.x());
+  const double gap = random.uniform(0.005, 0.04);
+  const double u =
+      random.uniform(piece.width / 2 + 0.02, std::max(piece.width / 2 + 0.03, (b - a).norm() - piece.width / 2 - 0.02));
+  // The piece's front looks along its +y: into the room.
+  return {a + along * u + inwards * (gap + piece.depth / 2),
+          {piece.width / 2, piece.depth / 2},
+          std::atan2(along.y(), along.x()),
+          piece.height};
 }
 
 }  // namespace
@@ -185,6 +205,28 @@ void furnish(Building& building, int room, RoomUse use, double density, double c
       }
     }
   }
+}
+
+void add_wardrobe(Building& building, int room, int side, const Eigen::Vector2d& corner, double length, double height) {
+  constexpr double depth = 0.6;
+  const auto& outline = building.room(room).outline;
+  const auto i = static_cast<std::size_t>(side);
+  Eigen::Vector2d a = outline[i], b = outline[(i + 1) % outline.size()];
+  const Eigen::Vector2d right = (b - a).normalized(), inwards(-right.y(), right.x());
+  if ((b - corner).norm() < (a - corner).norm()) std::swap(a, b);
+  const Footprint place{a + (b - a).normalized() * (length / 2) + inwards * (depth / 2),
+                        {length / 2, depth / 2},
+                        std::atan2(right.y(), right.x()),
+                        height};
+  Footprint within = place;  // its back and its end touch walls
+  within.half -= Eigen::Vector2d(1e-9, 1e-9);
+  if (!is_free(building.room(room), within))
+    throw Error("a wardrobe of " + std::to_string(length) + " m does not fit along its wall",
+                "make it shorter: it must leave doors and windows free");
+  const Frame frame{building, building.add_object("wardrobe"), place.centre, place.yaw,
+                    building.room(room).floor_height};
+  build_block(frame, length, depth, height);
+  building.occupy(room, place);
 }
 
 }  // namespace atrium::synth

@@ -4,11 +4,15 @@
 
 namespace atrium::synth {
 
-enum class RoomUse { living, kitchen, bedroom, study, hall };
+enum class RoomUse { living, kitchen, bedroom, study, hall, office, meeting };
 
 /// Puts furniture into a room: beds, tables with legs, chairs, shelves, wardrobes and so on, each where it fits (apart
 /// from others, doors kept free, nothing tall before windows), large pieces first with their back to a wall. `density`
 /// 1 is an ordinary home; 0 leaves the room empty; 2 tries to place every piece twice. `ceiling`: clear height, metres.
 void furnish(Building& building, int room, RoomUse use, double density, double ceiling, Random& random);
+
+/// A wardrobe, 0.6 m deep, with its back on a wall (a side of the outline) from its end nearest to `corner`. Errors: it
+/// is longer than the wall, or stands in a door's way or before a window.
+void add_wardrobe(Building& building, int room, int side, const Eigen::Vector2d& corner, double length, double height);
 
 }  // namespace atrium::synth

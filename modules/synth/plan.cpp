@@ -24,6 +24,68 @@ bool segments_cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Ei
   return cross(b - a, c - a) * cross(b - a, d - a) < 0 && cross(d - c, a - c) * cross(d - c, b - c) < 0;
 }
 
+struct Candidates {
+  Ring2 places;
+  std::vector<double> clearances;
+};
+
+Candidates candidates_in(const Ring2& room, const std::vector<Footprint>& furniture) {
+  constexpr double raster = 0.2;
+  Eigen::Vector2d low = room.front(), high = room.front();
+  for (const auto& p : room) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  Candidates result;
+  for (double y = low.y() + raster / 2; y < high.y(); y += raster)
+    for (double x = low.x() + raster / 2; x < high.x(); x += raster) {
+      const Eigen::Vector2d p(x, y);
+      if (!inside(room, p)) continue;
+      double clearance = distance_to_border(room, p);
+      for (const auto& f : furniture) clearance = std::min(clearance, f.distance(p));
+      result.places.push_back(p);
+      result.clearances.push_back(clearance);
+    }
+  return result;
+}
+
+// The parts of a room's outline, some 0.2 m each, that no place sees yet.
+class Unseen {
+ public:
+  explicit Unseen(const Ring2& room) : room_(room) {
+    for (std::size_t i = 0; i < room.size(); ++i) {
+      const Eigen::Vector2d &a = room[i], b = room[(i + 1) % room.size()];
+      const int parts = std::max(1, static_cast<int>((b - a).norm() / 0.2));
+      for (int k = 0; k < parts; ++k) parts_.push_back({i, a + (b - a) * ((k + 0.5) / parts)});
+    }
+  }
+  std::vector<std::size_t> seen_from(const Eigen::Vector2d& place) const {
+    std::vector<std::size_t> seen;
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+      if (sees(place, parts_[i])) seen.push_back(i);
+    return seen;
+  }
+  void remove(const Eigen::Vector2d& place) {
+    const auto seen = seen_from(place);
+    for (auto i = seen.rbegin(); i != seen.rend(); ++i) parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(*i));
+  }
+
+ private:
+  struct Part {
+    std::size_t side;
+    Eigen::Vector2d middle;
+  };
+  bool sees(const Eigen::Vector2d& place, const Part& part) const {
+    for (std::size_t i = 0; i < room_.size(); ++i) {
+      const Eigen::Vector2d &a = room_[i], &b = room_[(i + 1) % room_.size()];
+      if (i == part.side ? cross(b - a, place - a) <= 0 : segments_cross(place, part.middle, a, b)) return false;
+    }
+    return true;
+  }
+  const Ring2& room_;
+  std::vector<Part> parts_;
+};
+
 }  // namespace
 
 Ring2 Footprint::corners() const {
@@ -83,42 +145,34 @@ double distance_to_border(const Ring2& ring, const Eigen::Vector2d& p) {
 }
 
 Ring2 scanner_places(const Ring2& room, const std::vector<Footprint>& furniture, std::size_t count) {
-  constexpr double raster = 0.2, wanted = 0.45;
-  Eigen::Vector2d low = room.front(), high = room.front();
-  for (const auto& p : room) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  Ring2 candidates;
-  std::vector<double> clearances;
-  for (double y = low.y() + raster / 2; y < high.y(); y += raster)
-    for (double x = low.x() + raster / 2; x < high.x(); x += raster) {
-      const Eigen::Vector2d p(x, y);
-      if (!inside(room, p)) continue;
-      double clearance = distance_to_border(room, p);
-      for (const auto& f : furniture) clearance = std::min(clearance, f.distance(p));
-      candidates.push_back(p);
-      clearances.push_back(clearance);
-    }
+  constexpr double apart = 0.45;
+  double wanted = apart;  // room around a tripod
+  const Candidates candidates = candidates_in(room, furniture);
+  Unseen unseen(room);
   Ring2 places;
-  while (places.size() < count && !candidates.empty()) {
-    double best = -1;
+  while (places.size() < count && !candidates.places.empty()) {
+    std::pair<std::size_t, double> best{0, -1};  // what of the outline it sees anew, and how far it is from the others
     std::size_t at = 0;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      double score = clearances[i];
+    for (std::size_t i = 0; i < candidates.places.size(); ++i) {
+      std::pair<std::size_t, double> score{0, candidates.clearances[i]};
       if (!places.empty()) {
-        if (score < wanted) continue;
-        score = std::numeric_limits<double>::infinity();
-        for (const auto& p : places) score = std::min(score, (p - candidates[i]).norm());
-        if (score < wanted) continue;
+        if (score.second < wanted) continue;
+        score = {unseen.seen_from(candidates.places[i]).size(), std::numeric_limits<double>::infinity()};
+        for (const auto& p : places) score.second = std::min(score.second, (p - candidates.places[i]).norm());
+        if (score.second < apart) continue;
       }
       if (score > best) {
         best = score;
         at = i;
       }
     }
-    if (best < 0) break;
-    places.push_back(candidates[at]);
+    if (best.second < 0 && places.size() < 2 && wanted == apart) {
+      wanted = 0.25;  // a crowded room: where a tripod just stands
+      continue;
+    }
+    if (best.second < 0) break;
+    places.push_back(candidates.places[at]);
+    unseen.remove(places.back());
   }
   return places;
 }

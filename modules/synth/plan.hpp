@@ -24,8 +24,9 @@ bool inside(const Ring2& ring, const Eigen::Vector2d& p);
 bool inside(const Ring2& ring, const Footprint& footprint);
 double distance_to_border(const Ring2& ring, const Eigen::Vector2d& p);
 
-/// Up to `count` places for a scanner: the first has most room around it, each further one is as far as may be from
-/// those before. Deterministic; at least one unless the ring is thinner than the 0.2 m raster.
+/// Up to `count` places for a scanner: the first has most room around it; each further one sees most of the outline
+/// that those before do not see, is as far as may be from them, and has 0.45 m around it (0.25 m, if only so a second
+/// one is found). Deterministic; at least one unless the ring is thinner than the 0.2 m raster.
 Ring2 scanner_places(const Ring2& room, const std::vector<Footprint>& furniture, std::size_t count);
 
 }  // namespace atrium::synth

@@ -1,5 +1,7 @@
 #include "modules/synth/room.hpp"
 
+#include <algorithm>
+
 #include "modules/synth/furniture.hpp"
 
 namespace atrium::synth {
@@ -20,6 +22,10 @@ Room::Out Room::run(const In& /*in*/, const Params& p, Context& context) {
   const int south = b.wall_of(room, 0), west = b.wall_of(room, static_cast<int>(outline.size()) - 1);
   b.pierce_outside("window", south, b.on_wall(south, {0.5 * w, 0}, 1.5, 0.9, 2.1), p.outer_wall);
   b.pierce_outside("door", west, b.on_wall(west, {0, 0.7 * d}, 0.9, 0, 2.01), p.outer_wall, true);
+  if (p.wardrobe > 0) {
+    const int north = static_cast<int>(outline.size()) - 2;
+    add_wardrobe(b, room, north, outline[static_cast<std::size_t>(north)], p.wardrobe, std::min(2.2, p.ceiling_height));
+  }
   Random random = context.random();
   furnish(b, room, RoomUse::living, p.furniture, p.ceiling_height, random);
   return {b.finish()};

@@ -53,11 +53,15 @@ class Scanner {
   Scanner(const SimulatedScene& scene, const Scan::Params& params, std::vector<Station> stations)
       : params_(params), stations_(std::move(stations)), tree_(scene.vertices, scene.triangles) {
     double area = 0;
-    for (const auto& [a, b, c] : scene.triangles) {
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+      const auto& [a, b, c] = scene.triangles[t];
       const Eigen::Vector3d &p = scene.vertices[a], &q = scene.vertices[b], &r = scene.vertices[c];
       corners_.push_back({p, q - p, r - p});
       const Eigen::Vector3d normal = (q - p).cross(r - p);
-      area += normal.norm() / 2;
+      const auto surface = scene.surfaces[t];
+      silent_.push_back(!params.ceilings && surface >= 0 &&
+                        scene.truth.faces[static_cast<std::size_t>(surface)].surface == SurfaceClass::ceiling);
+      if (!silent_.back()) area += normal.norm() / 2;
       normals_.push_back(normal.norm() > 0 ? normal.normalized() : Eigen::Vector3d(0, 0, 0));
       areas_.push_back(area);
       for (const auto& corner : {p, q, r}) box_.extend(corner);
@@ -81,7 +85,7 @@ class Scanner {
       const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
                                       std::sin(elevation));
       const auto hit = tree_.cast(stations_[s].place, direction, params_.max_range);
-      if (hit && hit.front) return {hit.triangle, s, direction, hit.distance};
+      if (hit && hit.front && !silent_[hit.triangle]) return {hit.triangle, s, direction, hit.distance};
     }
     return {};
   }
@@ -134,7 +138,8 @@ class Scanner {
   TriangleTree tree_;
   std::vector<std::array<Eigen::Vector3d, 3>> corners_;  // corner and two edges
   std::vector<Eigen::Vector3d> normals_;
-  std::vector<double> areas_;  // running sums
+  std::vector<double> areas_;  // running sums of those that answer
+  std::vector<bool> silent_;   // triangles that give no points
   Eigen::AlignedBox3d box_;
 };
 
@@ -149,6 +154,29 @@ void allocate(Cloud& cloud, std::size_t total, bool normals) {
   cloud.labels.resize(total);
   cloud.source.resize(total);
   if (normals) cloud.normals.resize(total);
+}
+
+// Moves place from[i] of every column to i, with from the same random order for all.
+void shuffle(Cloud& cloud, Random random, const Context& context) {
+  std::vector<std::uint32_t> from(cloud.size());
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const auto k = static_cast<std::size_t>(random.index(i + 1));
+    from[i] = from[k];
+    from[k] = static_cast<std::uint32_t>(i);
+  }
+  const auto gather = [&](auto& column) {
+    if (column.empty()) return;
+    auto moved = column;
+    context.parallel_for(from.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) moved[i] = column[from[i]];
+    });
+    column = std::move(moved);
+  };
+  gather(cloud.points);
+  gather(cloud.colours);
+  gather(cloud.labels);
+  gather(cloud.source);
+  gather(cloud.normals);
 }
 
 Cloud scan(const SimulatedScene& scene, const Scanner& scanner, const Scan::Params& params, const Transform& pose,
@@ -193,6 +221,7 @@ Scan::Out Scan::run(const In& in, const Params& params, Context& context) {
   const Scanner scanner(scene, params, stations_of(scene, params, context.random(0)));
   Out out;
   out.cloud = scan(scene, scanner, params, pose, context);
+  if (params.shuffle) shuffle(out.cloud, context.random(~std::uint64_t{0}), context);
   out.truth = transformed(scene.truth, pose);
   out.mesh = out.truth.mesh;
   return out;

@@ -14,7 +14,8 @@ namespace atrium::synth {
 /// drawn, so that the count is exact.
 ///
 /// Errors. Range noise is Gaussian along the ray. Outliers are half spread evenly through the scene's bounding box,
-/// half along rays before the surface (mixed pixels, dust). Drift is one rigid motion per position, none for the first.
+/// half along rays before the surface (mixed pixels, dust). Drift is one rigid motion per position, none for the first:
+/// with `drift` σ, two of the others lie √6 · σ apart (root mean square), and each of them √3 · σ from the first.
 ///
 /// Frame. cloud place = Rx(tilt) · Rz(yaw) · scene place + offset; the offset becomes the origin of cloud, truth and
 /// mesh.
@@ -48,6 +49,8 @@ struct Scan {
     double tilt = 0;
     std::vector<double> offset{0, 0, 0};
     bool normals = false;
+    bool ceilings = true;
+    bool shuffle = false;
   };
   static constexpr auto inputs = std::tuple{port(&In::scene, "scene", "What is looked at.")};
   static constexpr auto outputs =
@@ -74,6 +77,9 @@ struct Scan {
             "Then turn about the x axis: how far z is off the vertical."),
       param(&Params::offset, "offset", metres, within(-1e8, 1e8), "Then shift: x, y, z (a georeferenced scan, say)."),
       param(&Params::normals, "normals", "Whether the cloud has the surfaces' exact normals, towards the scanner."),
+      param(&Params::ceilings, "ceilings",
+            "Whether ceilings are scanned; without, their rays give no points, and the truth keeps them."),
+      param(&Params::shuffle, "shuffle", "Whether the same points come in random order."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

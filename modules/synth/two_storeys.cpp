@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "modules/synth/furniture.hpp"
+#include "modules/synth/openings.hpp"
 
 namespace atrium::synth {
 namespace {
@@ -10,9 +11,6 @@ namespace {
 constexpr Colour stair_colour{140, 104, 70}, rail_colour{70, 72, 76};
 constexpr double stair_width = 1.0, tread = 0.27, stair_start = 1.3, headroom = 2.05;
 
-enum Side { south, east, north, west };
-
-Ring2 rectangle(double x0, double x1, double y0, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
 Footprint footprint(double x0, double x1, double y0, double y1, double height) {
   return {{(x0 + x1) / 2, (y0 + y1) / 2}, {(x1 - x0) / 2, (y1 - y0) / 2}, 0, height};
 }
@@ -51,18 +49,6 @@ void build_stairs(Building& b, int hall, int landing, const Stairs& s, double st
   b.add_position({stair_width / 2, stair_start + tread * (middle + 0.5), s.rise * (middle + 1) + 1.5});
 }
 
-void pierce_window(Building& b, int room, Side side, const Eigen::Vector2d& at, double width, double sill, double top,
-                   double wall) {
-  const int face = b.wall_of(room, side);
-  const double floor = b.room(room).floor_height;
-  b.pierce_outside("window", face, b.on_wall(face, at, width, floor + sill, floor + top), wall);
-}
-void pierce_door(Building& b, int room_a, Side side_a, int room_b, Side side_b, const Eigen::Vector2d& at) {
-  const int face = b.wall_of(room_a, side_a);
-  const double floor = b.room(room_a).floor_height;
-  b.pierce("door", face, b.on_wall(face, at, 0.86, floor, floor + 2.01), b.wall_of(room_b, side_b));
-}
-
 }  // namespace
 
 TwoStoreys::Out TwoStoreys::run(const In& /*in*/, const Params& p, Context& context) {
@@ -84,20 +70,19 @@ TwoStoreys::Out TwoStoreys::run(const In& /*in*/, const Params& p, Context& cont
   b.pierce("slab", b.ceiling_of(hall), {0, stair_width, -s.end, -s.opening}, b.floor_of(landing));
   build_stairs(b, hall, landing, s, up);
 
-  pierce_door(b, hall, east, living, west, {0, 0.4 * lower});
-  pierce_door(b, hall, east, kitchen, west, {0, lower + t + 0.5 * (d - lower - t)});
-  pierce_door(b, living, north, kitchen, south, {0.8 * w, 0});
-  pierce_door(b, landing, east, bedroom, west, {0, 0.3 * upper});
-  pierce_door(b, landing, east, study, west, {0, upper + t + 0.7 * (d - upper - t)});
-  const int entrance = b.wall_of(hall, south);
-  b.pierce_outside("door", entrance, b.on_wall(entrance, {0.65 * xs, 0}, 0.95, 0, 2.05), p.outer_wall, true);
+  add_door(b, hall, east, living, west, {0, 0.4 * lower});
+  add_door(b, hall, east, kitchen, west, {0, lower + t + 0.5 * (d - lower - t)});
+  add_door(b, living, north, kitchen, south, {0.8 * w, 0});
+  add_door(b, landing, east, bedroom, west, {0, 0.3 * upper});
+  add_door(b, landing, east, study, west, {0, upper + t + 0.7 * (d - upper - t)});
+  add_entrance(b, hall, south, {0.65 * xs, 0}, p.outer_wall);
   const double middle = xs + t + 0.5 * (w - xs - t);
-  pierce_window(b, living, south, {middle, 0}, 2.0, 0.85, 2.1, p.outer_wall);
-  pierce_window(b, living, east, {0, 0.5 * lower}, 1.6, 0.0, 2.1, p.outer_wall);
-  pierce_window(b, kitchen, north, {middle, 0}, 1.2, 1.05, 2.1, p.outer_wall);
-  pierce_window(b, landing, north, {0.6 * xs, 0}, 0.9, 0.9, 2.1, p.outer_wall);
-  pierce_window(b, bedroom, south, {middle, 0}, 1.6, 0.85, 2.1, p.outer_wall);
-  pierce_window(b, study, north, {middle, 0}, 1.4, 0.85, 2.1, p.outer_wall);
+  add_window(b, living, south, {middle, 0}, 2.0, 0.85, 2.1, p.outer_wall);
+  add_window(b, living, east, {0, 0.5 * lower}, 1.6, 0.0, 2.1, p.outer_wall);
+  add_window(b, kitchen, north, {middle, 0}, 1.2, 1.05, 2.1, p.outer_wall);
+  add_window(b, landing, north, {0.6 * xs, 0}, 0.9, 0.9, 2.1, p.outer_wall);
+  add_window(b, bedroom, south, {middle, 0}, 1.6, 0.85, 2.1, p.outer_wall);
+  add_window(b, study, north, {middle, 0}, 1.4, 0.85, 2.1, p.outer_wall);
 
   Random random = context.random();
   for (const auto& [room, use] : {std::pair{hall, RoomUse::hall},

@@ -1,5 +1,6 @@
 #pragma once
 #include "graph/api/node.hpp"
+#include "modules/synth/shared_params.hpp"
 #include "modules/types/simulated_scene.hpp"
 
 namespace atrium::synth {
@@ -32,11 +33,9 @@ struct TwoStoreys {
       param(&Params::depth, "depth", metres, within(7, 30), "Inner size along y."),
       param(&Params::ceiling_height, "ceiling_height", metres, within(2.3, 3), "Floor to ceiling of both storeys."),
       param(&Params::slab, "slab", metres, within(0.05, 0.6), "From the lower ceiling to the upper floor."),
-      param(&Params::inner_wall, "inner_wall", metres, within(0.02, 0.5), "Thickness of the walls between rooms."),
-      param(&Params::outer_wall, "outer_wall", metres, within(0.02, 1),
-            "Depth of the reveals of windows and entrance."),
-      param(&Params::furniture, "furniture", unitless, within(0, 3),
-            "How densely it is furnished: 0 empty, 1 an ordinary home."),
+      inner_wall_param<Params>(),
+      outer_wall_param<Params>(),
+      furniture_param<Params>(),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

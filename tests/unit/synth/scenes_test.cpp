@@ -5,7 +5,10 @@
 
 #include "modules/geometry/triangle_tree.hpp"
 #include "modules/synth/attic.hpp"
+#include "modules/synth/office.hpp"
+#include "modules/synth/polygon_room.hpp"
 #include "modules/synth/room.hpp"
+#include "modules/synth/round_room.hpp"
 #include "modules/synth/scan.hpp"
 #include "modules/synth/two_storeys.hpp"
 #include "scene_checks.hpp"
@@ -39,7 +42,7 @@ void check_positions(const SimulatedScene& scene) {
 
 template <class Scene>
 class SynthScene : public testing::Test {};
-using Scenes = testing::Types<Room, TwoStoreys, Attic>;
+using Scenes = testing::Types<Room, TwoStoreys, Attic, Office, PolygonRoom, RoundRoom>;
 TYPED_TEST_SUITE(SynthScene, Scenes);
 
 TYPED_TEST(SynthScene, IsExactAndClosedWithAnyFurniture) {
