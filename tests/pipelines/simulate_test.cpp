@@ -36,7 +36,9 @@ TEST_P(Simulate, ScanAndTruthAreWrittenAndTheTruthIsPerfect) {
   EXPECT_GT(metrics["faces"]["triangles"]["value"], 12.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Simulate, testing::Values("room", "flat", "two_storeys", "attic", "office", "polygon_room", "round_room"),
+INSTANTIATE_TEST_SUITE_P(Scenes, Simulate,
+                         testing::Values("room", "flat", "two_storeys", "attic", "office", "polygon_room",
+                                         "round_room"),
                          [](const auto& scene) { return scene.param; });
 
 }  // namespace
