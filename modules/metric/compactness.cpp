@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "modules/metric/fewest_corners.hpp"
 #include "modules/metric/mesh_samples.hpp"
-#include "modules/metric/outline_corners.hpp"
 #include "modules/metric/welded_mesh.hpp"
 
 namespace atrium::metric {
@@ -48,7 +48,7 @@ std::size_t count_polygons(const Mesh& mesh, const std::vector<bool>& counts, co
 
 }  // namespace
 
-Compactness::Out Compactness::run(const In& in, const Params& /*params*/, Context& context) {
+Compactness::Out Compactness::run(const In& in, const Params& params, Context& context) {
   const Mesh& mesh = *in.mesh;
   check_mesh(mesh, "the mesh");
   if (in.truth && in.truth->rooms.empty()) throw Error("the truth has no rooms: the least that they need is not known");
@@ -67,7 +67,7 @@ Compactness::Out Compactness::run(const In& in, const Params& /*params*/, Contex
   if (!in.truth) return out;
   std::size_t corners = 0, least = 0;
   for (const auto& room : in.truth->rooms) {
-    const std::size_t n = corners_of(room.outline).size();
+    const std::size_t n = fewest_corners(room.outline, params.sagitta);
     corners += n;
     least += 4 * n - 4;
   }

@@ -8,6 +8,7 @@
 #include "meshes.hpp"
 #include "modules/synth/flat.hpp"
 #include "modules/synth/room.hpp"
+#include "modules/synth/round_room.hpp"
 
 namespace atrium::metric {
 namespace {
@@ -76,6 +77,27 @@ TEST(MetricCompactness, TruthOfScenes) {
   EXPECT_GT(of(m, "ratio"), 1);  // the window and the door
   const auto flat = synth::Flat::run({}, {}, context).scene.truth;
   EXPECT_EQ(of(compactness(flat.mesh, flat), "polygons"), static_cast<double>(flat.faces.size()));
+}
+
+TEST(MetricCompactness, ACurvedWallCountsAsTheCoarsestChainOfItsSagitta) {
+  // A circle of radius 2 m: chords of a sagitta of 5 mm span 2 · acos(1 − 0.0025) = 8.1°, so 45 would do; of the 720
+  // corners every sixteenth (8°) is taken.
+  std::vector<V> circle;
+  for (int i = 0; i < 720; ++i) circle.emplace_back(2 * std::cos(i * M_PI / 360), 2 * std::sin(i * M_PI / 360), 0);
+  const auto corners = [&](double sagitta) {
+    Context context;
+    const auto truth = truth_of_rooms({circle});
+    return of(Compactness::run({input(room()), OptionalInput<GroundTruth>(input(truth))}, {sagitta}, context).metrics,
+              "corners");
+  };
+  EXPECT_EQ(corners(0.005), 45);
+  EXPECT_EQ(corners(0.1), 10);  // 36.4°: every 72nd
+  EXPECT_EQ(corners(0), 720);
+  Context context;
+  const auto round = synth::RoundRoom::run({}, {}, context).scene.truth;
+  // 23 chords of at most 7.6° on the half circle, and the rectangle's three sides.
+  EXPECT_NEAR(of(compactness(round.mesh, round), "corners"), 29, 1);
+  EXPECT_GT(round.rooms[0].outline.size(), 70U);
 }
 
 TEST(MetricCompactness, EmptyAndBadInput) {
