@@ -30,6 +30,7 @@ void expect_fit(const std::string& base, const fs::path& methods) {
 TEST(Comparisons, EveryMethodFitsEveryScene) {
   expect_fit("base.yaml", "methods");
   expect_fit("base_plan.yaml", "plans");
+  expect_fit("base_building.yaml", "buildings");
 }
 
 TEST(Comparisons, EveryTableCanBePlanned) {
