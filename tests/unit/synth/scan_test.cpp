@@ -164,6 +164,72 @@ TEST(SynthScan, PoseAndUtmOffsetAreExact) {
   EXPECT_NEAR(out.truth.faces[0].plane.normal.z(), std::cos(2.5 * M_PI / 180), 1e-12);
 }
 
+TEST(SynthScan, CeilingsCanStayUnseenAndTrue) {
+  for (const auto pattern : {Scan::Pattern::spherical, Scan::Pattern::uniform_area}) {
+    auto params = exact(30000, pattern);
+    const auto with = scan(flat(), params);
+    params.ceilings = false;
+    const auto without = scan(flat(), params);
+    EXPECT_EQ(without.cloud.size(), 30000U);
+    EXPECT_EQ(content_hash(with.truth), content_hash(without.truth));
+    const auto on_ceilings = [](const Scan::Out& out) {
+      return std::count_if(out.cloud.labels.begin(), out.cloud.labels.end(), [&](std::int32_t label) {
+        return label >= 0 && out.truth.faces[label].surface == SurfaceClass::ceiling;
+      });
+    };
+    EXPECT_GT(on_ceilings(with), 3000);
+    EXPECT_EQ(on_ceilings(without), 0);
+    // Walls are seen up to where the ceiling begins: the kitchen's, 2.7 m.
+    float top = 0;
+    for (const auto& p : without.cloud.points) top = std::max(top, p.z());
+    EXPECT_GT(top, 2.6F);
+    EXPECT_LT(top, 2.7001F);
+  }
+}
+
+TEST(SynthScan, ShuffledPointsAreTheSamePoints) {
+  Scan::Params params;
+  params.points = 20000;
+  params.normals = true;
+  const auto ordered = scan(flat(), params).cloud;
+  params.shuffle = true;
+  const auto shuffled = scan(flat(), params).cloud;
+  using Point = std::tuple<float, float, float, int, int, int, float>;
+  const auto rows = [](const Cloud& cloud) {
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      points.emplace_back(cloud.points[i].x(), cloud.points[i].y(), cloud.points[i].z(), cloud.labels[i],
+                          cloud.source[i], cloud.colours[i][0], cloud.normals[i].x());
+    return points;
+  };
+  auto a = rows(ordered), b = rows(shuffled);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) kept += a[i] == b[i] ? 1 : 0;
+  EXPECT_LT(kept, 50U);
+  // No trace of the order: of the first half of the scan about half lies in the first half.
+  const std::set<Point> first(a.begin(), a.begin() + 10000);
+  const auto stayed = std::count_if(b.begin(), b.begin() + 10000, [&](const Point& p) { return first.count(p) != 0; });
+  EXPECT_NEAR(static_cast<double>(stayed), 5000, 400);
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  EXPECT_EQ(a, b);
+}
+
+TEST(SynthScan, PositionsDriftBySqrt6TimesTheParameterFromEachOther) {
+  auto params = exact(1000);
+  const auto still = scan(flat(), params).cloud.sensors;
+  params.drift = 0.0122;
+  double squares = 0;
+  int pairs = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const auto moved = scan(flat(), params, seed).cloud.sensors;
+    for (std::size_t i = 1; i < moved.size(); ++i)
+      for (std::size_t k = i + 1; k < moved.size(); ++k, ++pairs)
+        squares += ((moved[i] - still[i]) - (moved[k] - still[k])).squaredNorm();
+  }
+  EXPECT_NEAR(std::sqrt(squares / pairs), 0.03, 0.002);
+}
+
 TEST(SynthScan, DriftMovesEachPositionButTheFirstRigidly) {
   auto params = exact(40000);
   const auto still = scan(flat(), params).cloud;
