@@ -54,7 +54,7 @@ class Unseen {
  public:
   explicit Unseen(const Ring2& room) : room_(room) {
     for (std::size_t i = 0; i < room.size(); ++i) {
-      const Eigen::Vector2d &a = room[i], b = room[(i + 1) % room.size()];
+      const Eigen::Vector2d &a = room[i], &b = room[(i + 1) % room.size()];
       const int parts = std::max(1, static_cast<int>((b - a).norm() / 0.2));
       for (int k = 0; k < parts; ++k) parts_.push_back({i, a + (b - a) * ((k + 0.5) / parts)});
     }
