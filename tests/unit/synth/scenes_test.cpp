@@ -75,6 +75,26 @@ TYPED_TEST(SynthScene, ScannerSeesEveryFaceOfTheEmptyBuilding) {
   for (std::int32_t face = 0; face < std::ssize(scene.truth.faces); ++face) EXPECT_EQ(seen.count(face), 1U) << face;
 }
 
+TYPED_TEST(SynthScene, PointsWithoutNoiseLieOnTheirFacesOrOnObjects) {
+  const auto scene = build<TypeParam>();
+  const TriangleTree tree(scene.vertices, scene.triangles);
+  Context context;
+  Scan::Params params;
+  params.points = 20000;
+  params.noise = params.outliers = 0;
+  const auto out = Scan::run({input(scene)}, params, context);
+  std::size_t structure = 0, objects = 0;
+  for (std::size_t i = 0; i < out.cloud.size(); ++i) {
+    const Eigen::Vector3d p = out.cloud.points[i].template cast<double>();
+    const auto label = out.cloud.labels[i];
+    const auto nearest = tree.nearest_of(p, 1e-8, [&](std::uint32_t t) { return scene.surfaces[t] == label; });
+    ASSERT_TRUE(nearest) << p.transpose() << " of " << label;
+    ++(label >= 0 ? structure : objects);
+  }
+  EXPECT_GT(structure, 10000U);
+  EXPECT_GT(objects, 500U);
+}
+
 TEST(SynthRoom, IsAnL) {
   const auto truth = build<Room>().truth;
   EXPECT_EQ(truth.faces.size(), 8U);
