@@ -45,6 +45,11 @@ class Floor {
       const double area = (outline[2] - outline[0]).prod();
       furnish(b_, first + i, uses_[static_cast<std::size_t>(i)], p_.furniture * area / 24, p_.ceiling_height, random_);
     }
+    // Two positions more for the length of the corridor.
+    for (const double x : {0.4 * p_.width, 0.7 * p_.width})
+      for (const auto& at : scanner_places(rectangle(x - 1.5, x + 1.5, corridor_south_, corridor_north_),
+                                           b_.room(corridor_).furniture, 1))
+        b_.add_position({at.x(), at.y(), 1.5});
     return b_.finish();
   }
 

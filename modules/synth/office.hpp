@@ -8,8 +8,8 @@ namespace atrium::synth {
 /// A furnished office floor of eight rooms: a corridor along x, four offices south of it, a meeting room and two
 /// offices north of it. Every room has a door to the corridor, the two south-western offices one between them; the
 /// corridor's west end has a shut entrance, its east end a window, the rooms one window per 2.8 m of their outer walls.
-/// The walls between offices on either side do not line up; the corridor's ceiling hangs lower. The south-west corner
-/// of the first office's floor is (0, 0, 0).
+/// The walls between offices on either side do not line up; the corridor's ceiling hangs lower; scanners stand twice
+/// more along it than in a room. The south-west corner of the first office's floor is (0, 0, 0).
 struct Office {
   static constexpr std::string_view type = "synth.office";
   static constexpr std::string_view summary =
