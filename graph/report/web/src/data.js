@@ -82,6 +82,27 @@ export function statistics(variants, metric) {
   return values.length === 0 ? null : { mean: mean(values), deviation: deviation(values), count: values.length };
 }
 
+/**
+ * Differences from one choice of an axis: per variant that with the same choices else, the seed too; nothing for those that have
+ * none. What the seeds have in common drops out.
+ */
+export function partnersOf(data, axis, choice) {
+  const key = (variant) => variant.choices.map((c, i) => (i === axis.index ? '' : c)).join('|');
+  const references = new Map(data.variants.filter((v) => v.choices[axis.index] === choice).map((v) => [key(v), v]));
+  return (variant) => references.get(key(variant));
+}
+
+/** As statistics(), of the differences from each variant's partner. */
+export function differences(variants, metric, partner) {
+  const values = [];
+  for (const variant of variants) {
+    const other = partner(variant);
+    const [a, b] = [variant.cells[metric], other?.cells[metric]];
+    if (variant.status === 'ok' && other?.status === 'ok' && typeof a === 'number' && typeof b === 'number') values.push(a - b);
+  }
+  return values.length === 0 ? null : { mean: mean(values), deviation: deviation(values), count: values.length };
+}
+
 const decoded = new Map();
 
 /** The bytes of one of the report's files, as a promise of a Blob. */

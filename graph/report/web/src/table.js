@@ -1,6 +1,6 @@
 // The table of variants, or of means over their seeds: sorted by any column, by mouse or keyboard.
-import { groupsOf, labelAt, statistics } from './data.js';
-import { check, h } from './dom.js';
+import { differences, groupsOf, labelAt, partnersOf, statistics } from './data.js';
+import { check, choice, h } from './dom.js';
 import { quantity, shown } from './quantities.js';
 
 const STEP = 400;  // rows are added by so many
@@ -11,13 +11,20 @@ export function makeTable(data, root, actions) {
   let variants = data.variants;
   let sort = { column: null, down: false };
   let limit = STEP;
+  let partner = null;
 
+  const compared = data.varying.filter((axis) => !axis.seed && axis.name !== 'sample' && axis.choices.length <= 30);
+  const from = choice('values', [['', 'as they are'], ...compared.flatMap((axis) => axis.labels.map((label, i) => [`${axis.index} ${i}`, `as differences from ${axis.title} ${label}`]))], '', (value) => {
+    const [axis, index] = value.split(' ').map(Number);
+    partner = value === '' ? null : partnersOf(data, data.axes[axis], index);
+    render();
+  });
   const body = h('tbody');
   const more = h('button', { type: 'button', class: 'quiet', onclick: () => { limit += 4 * STEP; render(); } });
   const head = h('tr');
   const caption = h('caption', { class: 'hidden' }, 'Variants with their metrics; the headings sort.');
   const toggle = check('means over the seeds', means, (on) => { means = on; sort = { column: null, down: false }; render(); });
-  root.append(h('div', { class: 'tools' }, seeds ? toggle.element : null,
+  root.append(h('div', { class: 'tools' }, compared.length > 0 ? from.element : null, seeds ? toggle.element : null,
                 h('span', { class: 'hint' }, 'Click a heading to sort; a row for its details.')),
               h('div', { class: 'scroll', tabindex: '0', role: 'region', 'aria-label': 'Table of variants' },
                 h('table', { id: 'table' }, caption, h('thead', {}, head), body)),
@@ -42,14 +49,17 @@ export function makeTable(data, root, actions) {
   }
 
   function keyOf(row, index) {
+    if (partner) return differences(row, index, partner)?.mean ?? null;
     if (row.length > 1) return statistics(row, index)?.mean ?? null;
     return row[0].cells[index] ?? null;
   }
   function cellOf(row, metric, index) {
-    if (row.length === 1) return shown(row[0].cells[index], metric.digits);
-    const found = statistics(row, index);
+    if (row.length === 1 && !partner) return shown(row[0].cells[index], metric.digits);
+    const found = partner ? differences(row, index, partner) : statistics(row, index);
     if (!found) return '–';
-    return [shown(found.mean, metric.digits), found.count > 1 ? h('span', { class: 'spread' }, ` ± ${shown(found.deviation, metric.digits ?? undefined)}`) : null];
+    const sign = partner && found.mean > 0 ? '+' : '';
+    const digits = metric.digits === undefined || !partner ? metric.digits : metric.digits + 1;  // small against the values
+    return [sign + shown(found.mean, digits), found.count > 1 ? h('span', { class: 'spread' }, ` ± ${shown(found.deviation, digits)}`) : null];
   }
   function statusOf(row) {
     const bad = row.filter((v) => v.status !== 'ok');
