@@ -2,37 +2,15 @@
 
 #include <algorithm>
 
+#include "modules/floorplan/door_leaf.hpp"
+#include "modules/floorplan/drawn_openings.hpp"
 #include "modules/floorplan/room_label.hpp"
 #include "modules/floorplan/wall_pieces.hpp"
 
 namespace atrium::floorplan {
 namespace {
 
-constexpr double font = 1.4;         // font size per height of digits
-constexpr double hatch_width = 2.2;  // millimetres of paper behind a face whose other side is not known
-
-class Pen {
- public:
-  Pen(SvgCanvas& canvas, const Sheet& sheet, std::size_t index) : canvas_(canvas), sheet_(sheet), index_(index) {}
-  Eigen::Vector2d at(const Eigen::Vector2d& p) const { return sheet_.on_paper(index_, p); }
-  void polygon(const PlanPolygon& polygon, std::string_view attributes = {}) const {
-    std::vector<PlanRing> rings{ring(polygon.outline)};
-    for (const auto& hole : polygon.holes) rings.push_back(ring(hole));
-    canvas_.polygon(rings, attributes);
-  }
-  void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const { canvas_.line(at(a), at(b)); }
-  double mm() const { return 1 / sheet_.per_metre(); }  // metres of the plan
-
- private:
-  PlanRing ring(const PlanRing& corners) const {
-    PlanRing result;
-    for (const auto& p : corners) result.push_back(at(p));
-    return result;
-  }
-  SvgCanvas& canvas_;
-  const Sheet& sheet_;
-  std::size_t index_;
-};
+constexpr double font = 1.4;  // font size per height of digits
 
 // Whether another wall that is not parallel ends, or runs, where the wall has its end p.
 bool at_corner(const PlanStorey& storey, const PlanWall& wall, const Eigen::Vector2d& p) {
@@ -85,12 +63,18 @@ void draw_walls(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey) {
 }
 
 void draw_room_labels(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey) {
+  std::vector<PlanWall> obstacles = storey.walls;
+  for (const auto& opening : storey.openings)
+    for (const auto& leaf : door_leaves(opening, storey)) {
+      obstacles.emplace_back().from = leaf.hinge;
+      obstacles.back().to = leaf.open;
+    }
   canvas.begin_group("fill=\"#1a1a1a\" text-anchor=\"middle\"");
   for (const auto& room : storey.rooms) {
     const std::string area = fmt::format("{:.2f} m\u00B2", room.polygon.area());
     const std::string height = room.height > 0 ? fmt::format("h {:.2f} m", room.height) : "h unknown";
     const double width = std::max(text_width(room.name, 2.6), text_width(area, 2.2)) + 2;
-    const LabelPlace place = label_place(room.polygon, Eigen::Vector2d(width, 15) * pen.mm(), storey.walls);
+    const LabelPlace place = label_place(room.polygon, Eigen::Vector2d(width, 15) * pen.mm(), obstacles);
     const double size = std::max(place.scale, 0.45);  // below, no one could read it
     const Eigen::Vector2d at = pen.at(place.scale > 0 ? place.middle : room.polygon.outline.front());
     canvas.text(at + Eigen::Vector2d(0, -2.2 * size), 3.6 * size, room.name, "font-weight=\"bold\"");
@@ -148,6 +132,7 @@ void draw_storey(SvgCanvas& canvas, const Sheet& sheet, std::size_t index, const
   canvas.begin_group(fmt::format("id=\"storey-{}\"", storey.index));
   draw_areas(canvas, pen, storey);
   draw_walls(canvas, pen, storey);
+  draw_openings(canvas, pen, storey);
   draw_room_labels(canvas, pen, storey);
   if (dimensions) draw_dimensions(canvas, pen, storey);
   draw_caption(canvas, pen, storey, sheet.captions[index]);

@@ -4,8 +4,8 @@
 
 namespace atrium::floorplan {
 
-/// Draws storey number `index` of the sheet, whose walls are turned parallel to it: floors, walls, labels of the rooms,
-/// dimensions and the sheet's caption.
+/// Draws storey number `index` of the sheet, whose walls are turned parallel to it: floors, walls, openings, labels of
+/// the rooms, dimensions and the sheet's caption.
 void draw_storey(SvgCanvas& canvas, const Sheet& sheet, std::size_t index, const PlanStorey& storey, bool dimensions);
 
 /// The frame and the strip at its foot: title, what is drawn, north arrow, scale.

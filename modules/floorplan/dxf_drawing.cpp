@@ -3,7 +3,9 @@
 #include <dxflib/dl_dxf.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include "graph/api/error.hpp"
 
@@ -128,6 +130,17 @@ DxfDrawing::~DxfDrawing() = default;
 void DxfDrawing::line(const std::string& layer, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d from = writer_->origin + a, to = writer_->origin + b;
   writer_->dxf.writeLine(*writer_->out, DL_LineData(from.x(), from.y(), 0, to.x(), to.y(), 0), on(layer));
+}
+
+void DxfDrawing::arc(const std::string& layer, const Eigen::Vector2d& middle, const Eigen::Vector2d& a,
+                     const Eigen::Vector2d& b) {
+  const auto degrees = [&](const Eigen::Vector2d& p) {
+    const double angle = std::atan2(p.y() - middle.y(), p.x() - middle.x()) * 180 / std::numbers::pi;
+    return angle < 0 ? angle + 360 : angle;
+  };
+  const Eigen::Vector2d at = writer_->origin + middle;
+  writer_->dxf.writeArc(*writer_->out, DL_ArcData(at.x(), at.y(), 0, (a - middle).norm(), degrees(a), degrees(b)),
+                        on(layer));
 }
 
 void DxfDrawing::closed_polyline(const std::string& layer, const PlanRing& ring) {

@@ -28,6 +28,8 @@ class DxfDrawing {
   DxfDrawing& operator=(const DxfDrawing&) = delete;
 
   void line(const std::string& layer, const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+  /// The part of a circle from a to b, counter-clockwise.
+  void arc(const std::string& layer, const Eigen::Vector2d& middle, const Eigen::Vector2d& a, const Eigen::Vector2d& b);
   void closed_polyline(const std::string& layer, const PlanRing& ring);
   /// Centred at `middle`, turned counter-clockwise by `angle` (radians).
   void text(const std::string& layer, const Eigen::Vector2d& middle, double height, const std::string& text,

@@ -59,6 +59,11 @@ PlanStorey turned(PlanStorey storey, double angle) {
     wall.to = rotation * wall.to;
     turn_ring(wall.outline);
   }
+  for (auto& opening : storey.openings) {
+    opening.from = rotation * opening.from;
+    opening.to = rotation * opening.to;
+    turn_ring(opening.outline);
+  }
   for (auto* polygons : {&storey.bodies, &storey.floors, &storey.ceilings})
     for (auto& polygon : *polygons) turn_polygon(polygon);
   for (auto& room : storey.rooms) turn_polygon(room.polygon);

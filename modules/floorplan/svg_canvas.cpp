@@ -54,6 +54,11 @@ void SvgCanvas::line(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   text_ += fmt::format("<path d=\"M{}L{}\"/>\n", place(a), place(b));
 }
 
+void SvgCanvas::arc(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double radius, bool clockwise) {
+  text_ +=
+      fmt::format("<path d=\"M{}A{:.3f},{:.3f} 0 0 {} {}\"/>\n", place(a), radius, radius, clockwise ? 1 : 0, place(b));
+}
+
 void SvgCanvas::polygon(const std::vector<PlanRing>& rings, std::string_view attributes) {
   std::string path;
   for (const auto& ring : rings) {

@@ -25,6 +25,8 @@ class SvgCanvas {
   void begin_group(std::string_view attributes);
   void end_group() { text_ += "</g>\n"; }
   void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+  /// The shorter part of a circle from a to b, both `radius` away from its middle; clockwise as it is seen.
+  void arc(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double radius, bool clockwise);
   /// Closed; holes are rings that run the other way round.
   void polygon(const std::vector<PlanRing>& rings, std::string_view attributes = {});
   void rectangle(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, std::string_view attributes = {});

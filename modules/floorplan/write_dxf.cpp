@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "modules/floorplan/dimensions.hpp"
+#include "modules/floorplan/door_leaf.hpp"
+#include "modules/floorplan/drawn_openings.hpp"
 #include "modules/floorplan/dxf_drawing.hpp"
 #include "modules/floorplan/room_label.hpp"
 
@@ -14,6 +16,7 @@ namespace {
 
 const std::vector<DxfLayer> layers{{"A-WALL", 7, 50},      {"A-WALL-CNTR", 1, 13}, {"A-WALL-FACE", 7, 50},
                                    {"A-FLOR", 9, 13},      {"A-CLNG", 4, 13},      {"A-AREA", 3, 18},
+                                   {"A-DOOR", 30, 25},     {"A-GLAZ", 5, 25},      {"A-FLOR-OVHD", 8, 18},
                                    {"A-AREA-IDEN", 2, 18}, {"A-ANNO-DIMS", 8, 18}};
 
 class StoreyDrawing {
@@ -31,6 +34,17 @@ class StoreyDrawing {
     polygons("A-FLOR", storey.floors);
     polygons("A-CLNG", storey.ceilings);
     for (const auto& room : storey.rooms) polygons("A-AREA", {room.polygon});
+  }
+
+  void openings(const PlanStorey& storey) {
+    for (const auto& opening : storey.openings) {
+      if (opening.kind == "slab")
+        slab(opening, storey);
+      else if (opening.kind == "window")
+        window(opening);
+      else
+        door(opening, storey);
+    }
   }
 
   // In the plan's own axes, turned by `turn` from those that the walls are parallel to.
@@ -72,6 +86,36 @@ class StoreyDrawing {
     for (const auto& polygon : polygons) {
       drawing_.closed_polyline(layer + suffix_, polygon.outline);
       for (const auto& hole : polygon.holes) drawing_.closed_polyline(layer + suffix_, hole);
+    }
+  }
+
+  void slab(const PlanOpening& opening, const PlanStorey& storey) {
+    const PlanRing& ring = opening.outline;
+    if (ring.size() < 3) return;
+    const std::string layer = "A-FLOR-OVHD" + suffix_;
+    drawing_.closed_polyline(layer, ring);
+    if (ring.size() != 4 || overhead(opening, storey)) return;
+    drawing_.line(layer, ring[0], ring[2]);
+    drawing_.line(layer, ring[1], ring[3]);
+  }
+
+  void window(const PlanOpening& opening) {
+    const std::string layer = "A-GLAZ" + suffix_;
+    const PlanRing gap = gap_of(opening, hatch_width * mm_);
+    drawing_.closed_polyline(layer, gap);
+    for (const double share : {0.4, 0.6})
+      drawing_.line(layer, gap[0] + share * (gap[3] - gap[0]), gap[1] + share * (gap[2] - gap[1]));
+  }
+
+  void door(const PlanOpening& opening, const PlanStorey& storey) {
+    const std::string layer = "A-DOOR" + suffix_;
+    if (opening.thickness > 0)
+      drawing_.closed_polyline(layer, gap_of(opening, 0));
+    else
+      drawing_.line(layer, opening.from, opening.to);
+    for (const auto& leaf : door_leaves(opening, storey)) {
+      drawing_.line(layer, leaf.hinge, leaf.open);
+      drawing_.arc(layer, leaf.hinge, leaf.left() ? leaf.closed : leaf.open, leaf.left() ? leaf.open : leaf.closed);
     }
   }
 
@@ -122,6 +166,7 @@ WriteDxf::Out WriteDxf::run(const In& in, const Params& params, Context& context
     StoreyDrawing entities(drawing, suffix_of(storey), mm);
     entities.areas(storey);
     entities.walls(storey);
+    entities.openings(storey);
     entities.labels(storey, turn);
     if (params.dimensions) entities.dimensions(storey, turn);
   }

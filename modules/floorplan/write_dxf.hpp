@@ -15,6 +15,9 @@ namespace atrium::floorplan {
 /// | A-WALL-CNTR | their middle lines |
 /// | A-WALL-FACE | faces of walls of unknown thickness |
 /// | A-FLOR, A-CLNG | floors and ceilings |
+/// | A-DOOR | doors: gap, leaf open at a right angle, its sweep (which way it goes is custom, not measured) |
+/// | A-GLAZ | windows: gap and panes |
+/// | A-FLOR-OVHD | holes in floors (crossed) and in the ceiling above |
 /// | A-AREA, A-AREA-IDEN | outlines of rooms; their names, areas and heights |
 /// | A-ANNO-DIMS | dimensions outside of the building, as lines and texts |
 ///

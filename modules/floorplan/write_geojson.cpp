@@ -45,6 +45,28 @@ class Features {
   Json features_ = Json::array();
 };
 
+Json room_name(const PlanStorey& storey, std::int32_t room) {
+  if (room < 0 || static_cast<std::size_t>(room) >= storey.rooms.size()) return {};
+  return storey.rooms[static_cast<std::size_t>(room)].name;
+}
+
+void add_openings(Features& features, const PlanStorey& storey) {
+  for (const auto& opening : storey.openings) {
+    Json properties{{"class", opening.kind}, {"storey", storey.index}};
+    if (opening.kind != "slab") {
+      properties["rooms"] = Json::array({room_name(storey, opening.room_a), room_name(storey, opening.room_b)});
+      properties["width_m"] = known(opening.width());
+      properties["height_m"] = known(opening.height);
+    }
+    properties["sill_m"] = rounded(opening.sill, 1e4);
+    properties["thickness_m"] = known(opening.thickness);
+    if (opening.outline.empty())
+      features.add(properties, opening.from, opening.to);
+    else
+      features.add(properties, PlanPolygon{opening.outline, {}});
+  }
+}
+
 void add_storey(Features& features, const PlanStorey& storey, double origin_z) {
   const Json elevation = storey.floor_known ? Json(rounded(origin_z + storey.elevation, 1e4)) : Json();
   for (const auto& room : storey.rooms)
@@ -65,6 +87,7 @@ void add_storey(Features& features, const PlanStorey& storey, double origin_z) {
     else
       features.add(properties, PlanPolygon{wall.outline, {}});
   }
+  add_openings(features, storey);
   const auto add_all = [&](const char* name, const std::vector<PlanPolygon>& polygons) {
     for (const auto& polygon : polygons)
       features.add({{"class", name}, {"storey", storey.index}, {"area_m2", rounded(polygon.area(), 1e4)}}, polygon);

@@ -9,7 +9,9 @@ enum class Axes { walls, input };
 /// Draws a floor plan on a sheet of paper, true to scale when it is printed at 100 %.
 ///
 /// Walls of known thickness are filled; a wall of which one face was seen is that face's line with a hatched band where
-/// the wall is; a room's edge without a wall is dashed. Each room has its name, area and height; outside of the
+/// the wall is; a room's edge without a wall is dashed. Doors have their leaves open at a right angle (which way they
+/// go is custom, not measured; wide ones are passages), windows double panes, holes in the floor are crossed, those
+/// overhead dashed. Each room has its name, area and height; outside of the
 /// building stand chains of dimensions, of the wall faces seen from that side and of the whole, in metres. The sheet
 /// has a scale bar, a north arrow (the input's +y), and a title block with the scale, the number of rooms and their
 /// area; no date, so that the same plan gives the same bytes. An elevation or a height that is not known is said to be

@@ -98,4 +98,8 @@ struct Building {
   std::vector<BuildingWall> walls;
 };
 
+/// The building in the transform's target frame: the origin moves, local coordinates only turn. Where z is not up
+/// there, elevations of storeys count along what was z.
+Building transformed(const Building& building, const Transform& transform);
+
 }  // namespace atrium

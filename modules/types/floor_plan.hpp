@@ -35,6 +35,28 @@ struct PlanWall {
   std::vector<std::int32_t> primitives;  ///< that it was made from
 };
 
+/// A door or a window in a wall, or a hole in a slab, seen from above. `outline` is the gap in the wall, or the hole;
+/// empty if only one face of the wall is known.
+struct PlanOpening {
+  static constexpr auto members() {
+    return std::tuple{&PlanOpening::kind,    &PlanOpening::from,   &PlanOpening::to,
+                      &PlanOpening::outline, &PlanOpening::room_a, &PlanOpening::room_b,
+                      &PlanOpening::sill,    &PlanOpening::height, &PlanOpening::thickness};
+  }
+  std::string kind;  ///< "door", "window", "slab"
+  Eigen::Vector2d from =
+      Eigen::Vector2d::Zero();  ///< on the wall's middle line, or on its only face; of no use in slabs
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();
+  PlanRing outline;          ///< counter-clockwise
+  std::int32_t room_a = -1;  ///< index into the storey's rooms, left of from → to; −1: outside, or not known
+  std::int32_t room_b = -1;  ///< the room on the right
+  double sill = 0;           ///< lower edge over the storey's elevation, metres; of a slab its own height over it
+  double height = 0;         ///< lower to upper edge, metres; 0 in slabs
+  double thickness = 0;      ///< of the wall or slab, metres; 0: not known
+
+  double width() const { return (to - from).norm(); }
+};
+
 struct PlanRoom {
   static constexpr auto members() { return std::tuple{&PlanRoom::name, &PlanRoom::polygon, &PlanRoom::height}; }
   std::string name;
@@ -44,19 +66,20 @@ struct PlanRoom {
 
 struct PlanStorey {
   static constexpr auto members() {
-    return std::tuple{&PlanStorey::index,  &PlanStorey::elevation, &PlanStorey::floor_known,
-                      &PlanStorey::height, &PlanStorey::walls,     &PlanStorey::bodies,
-                      &PlanStorey::floors, &PlanStorey::ceilings,  &PlanStorey::rooms};
+    return std::tuple{&PlanStorey::index, &PlanStorey::elevation, &PlanStorey::floor_known, &PlanStorey::height,
+                      &PlanStorey::walls, &PlanStorey::bodies,    &PlanStorey::floors,      &PlanStorey::ceilings,
+                      &PlanStorey::rooms, &PlanStorey::openings};
   }
   std::int32_t index = 0;  ///< 0 is the lowest
   double elevation = 0;  ///< of the floor, metres, relative to origin; where it is not known, the storey's lowest place
-  bool floor_known = true;  ///< whether elevation is that of a floor, or of the foot of the walls
-  double height = 0;        ///< floor to ceiling, metres; 0: not known
-  std::vector<PlanWall> walls;
+  bool floor_known = true;          ///< whether elevation is that of a floor, or of the foot of the walls
+  double height = 0;                ///< floor to ceiling, metres; 0: not known
+  std::vector<PlanWall> walls;      ///< interrupted where a door or a window stands
   std::vector<PlanPolygon> bodies;  ///< what the walls of known thickness cover, joined at corners and junctions
   std::vector<PlanPolygon> floors;
   std::vector<PlanPolygon> ceilings;
   std::vector<PlanRoom> rooms;
+  std::vector<PlanOpening> openings;
 };
 
 /// Floor plans, one per storey, lowest first. Metres; a place is origin + (x, y), in the input's frame if its z points
