@@ -28,6 +28,9 @@ for e in doc.modelspace():
         entry["points"] = [[p[0], p[1]] for p in e.get_points()]
     elif e.dxftype() == "LINE":
         entry["points"] = [list(e.dxf.start), list(e.dxf.end)]
+    elif e.dxftype() == "ARC":
+        entry["points"] = [list(e.dxf.center), list(e.start_point), list(e.end_point)]
+        entry["radius"] = e.dxf.radius
     elif e.dxftype() == "TEXT":
         entry["text"] = e.dxf.text
         entry["height"] = e.dxf.height
@@ -109,6 +112,27 @@ TEST_F(Dxf, IsReadBackWithoutErrorsInTrueSizeAndPlace) {
   EXPECT_EQ(on(root, "A-WALL-FACE", "LINE").size(), 6U);
   EXPECT_EQ(on(root, "A-WALL-CNTR", "LINE").size(), 1U);
   EXPECT_EQ(on(root, "A-AREA-IDEN", "TEXT").size(), 6U);
+}
+
+TEST_F(Dxf, OpeningsHaveLayersOfTheirOwn) {
+  if (python().empty()) GTEST_SKIP() << "python3-ezdxf is not installed";
+  const json root = read_back(with_openings());
+  const auto gaps = on(root, "A-DOOR", "LWPOLYLINE"), leaves = on(root, "A-DOOR", "LINE"),
+             sweeps = on(root, "A-DOOR", "ARC");
+  ASSERT_EQ(gaps.size(), 1U);
+  EXPECT_NEAR(std::abs(area_of(gaps[0]["points"])), 0.9 * 0.12, 1e-6);
+  ASSERT_EQ(leaves.size(), 1U);
+  ASSERT_EQ(sweeps.size(), 1U);
+  EXPECT_NEAR(sweeps[0]["radius"], 0.9, 1e-6);
+  // Into the smaller room, at x > 4.12, hinged at the lower end, near the corner; counter-clockwise from open to
+  // closed.
+  const std::vector<Eigen::Vector2d> expected{{4.12, 0.5}, {5.02, 0.5}, {4.12, 1.4}};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (int k = 0; k < 2; ++k) EXPECT_NEAR(sweeps[0]["points"][i][k], expected[i][k], 1e-6) << i;
+  EXPECT_EQ(on(root, "A-GLAZ", "LWPOLYLINE").size(), 1U);
+  EXPECT_EQ(on(root, "A-GLAZ", "LINE").size(), 2U);
+  EXPECT_EQ(on(root, "A-FLOR-OVHD", "LWPOLYLINE").size(), 2U);
+  EXPECT_EQ(on(root, "A-FLOR-OVHD", "LINE").size(), 2U) << "only the hole in the floor is crossed";
 }
 
 TEST_F(Dxf, DimensionsAreTextsAlongTheirLines) {

@@ -65,6 +65,29 @@ TEST_F(Geojson, RingsAreClosedAndWoundAsTheStandardSays) {
   EXPECT_GT(holes, 0U);
 }
 
+TEST_F(Geojson, OpeningsTellWhatTheyJoin) {
+  std::map<std::string, std::vector<json>> openings;
+  const json root = write(with_openings());
+  for (const auto& feature : root["features"])
+    if (const std::string kind = feature["properties"]["class"]; kind == "door" || kind == "window" || kind == "slab")
+      openings[kind].push_back(feature);
+  ASSERT_EQ(openings["door"].size(), 1U);
+  const json& door = openings["door"][0];
+  EXPECT_EQ(door["properties"]["rooms"], json::array({"Room 1", "Room 2"}));
+  EXPECT_EQ(door["properties"]["width_m"], 0.9);
+  EXPECT_EQ(door["properties"]["height_m"], 2.1);
+  EXPECT_EQ(door["properties"]["thickness_m"], 0.12);
+  EXPECT_NEAR(signed_area(door["geometry"]["coordinates"][0]), 0.9 * 0.12, 1e-6);
+  ASSERT_EQ(openings["window"].size(), 1U);
+  const json& window = openings["window"][0];
+  EXPECT_EQ(window["geometry"]["type"], "LineString");
+  EXPECT_EQ(window["properties"]["rooms"], json::array({"Room 1", nullptr}));
+  EXPECT_EQ(window["properties"]["sill_m"], 0.9);
+  EXPECT_TRUE(window["properties"]["thickness_m"].is_null());
+  ASSERT_EQ(openings["slab"].size(), 2U);
+  EXPECT_EQ(openings["slab"][1]["properties"]["sill_m"], 2.5);
+}
+
 TEST_F(Geojson, FeaturesTellWhatTheyAre) {
   const json root = write(plan_of(with_hole()));
   int polygons = 0, lines = 0, floors = 0, ceilings = 0, rooms = 0;

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "modules/floorplan/door_leaf.hpp"
 #include "modules/floorplan/fitted_text.hpp"
 #include "modules/floorplan/svg_canvas.hpp"
 #include "tests/unit/floorplan/buildings.hpp"
@@ -141,6 +142,43 @@ TEST_F(Svg, IsTrueToScaleOnPaper) {
   });
   EXPECT_NEAR(size.x(), 2.4, 0.02);
   EXPECT_NEAR(size.y(), 60, 0.02);
+}
+
+TEST_F(Svg, DrawsDoorsWindowsAndHolesInSlabs) {
+  std::size_t arcs = 0, polygons = 0, lines = 0;
+  each(parsed(write(with_openings())), "g", [&](const ptree& group) {
+    if (group.get<std::string>("<xmlattr>.class", "") != "openings") return;
+    each(group, "path", [&](const ptree& path) {
+      const std::string d = path.get<std::string>("<xmlattr>.d");
+      const bool arc = d.find('A') != std::string::npos, closed = d.back() == 'Z';
+      EXPECT_EQ(d.find("A18.000,18.000 0 0") != std::string::npos, arc) << "0.9 m at 1:50";
+      ++(arc ? arcs : closed ? polygons : lines);
+    });
+  });
+  EXPECT_EQ(arcs, 1U);
+  EXPECT_EQ(polygons, 4U);
+  // Two panes; two thresholds, two jambs and a leaf; the diagonals of the hole in the floor.
+  EXPECT_EQ(lines, 2U + 5U + 2U);
+}
+
+TEST_F(Svg, DoorsTurnIntoRoomsAndWideOnesHaveTwoLeavesOrNone) {
+  PlanStorey storey;
+  storey.rooms.push_back({"a", {{{0, 0}, {4, 0}, {4, 3}, {0, 3}}, {}}, 2.5});
+  PlanOpening door{"door", {3, 3}, {2.1, 3}, {}, 0, -1, 0, 2, 0};  // the room on its left
+  const auto single = door_leaves(door, storey);
+  ASSERT_EQ(single.size(), 1U);
+  EXPECT_TRUE(single[0].hinge.isApprox(Eigen::Vector2d(3, 3))) << "near the corner";
+  EXPECT_TRUE(single[0].open.isApprox(Eigen::Vector2d(3, 2.1))) << "into the room";
+  EXPECT_TRUE(single[0].left());
+  door.to = {1.2, 3};
+  const auto pair = door_leaves(door, storey);
+  ASSERT_EQ(pair.size(), 2U);
+  EXPECT_TRUE(pair[0].closed.isApprox(pair[1].closed));
+  door.to = {0.2, 3};
+  EXPECT_TRUE(door_leaves(door, storey).empty());
+  door.kind = "window";
+  door.to = {2.1, 3};
+  EXPECT_TRUE(door_leaves(door, storey).empty());
 }
 
 TEST_F(Svg, NamesRoomsWithAreaAndHeight) {
