@@ -27,6 +27,8 @@ int main(int argc, char** argv) {
   cli::add_graph(app, exit_code);
   cli::add_report(app, exit_code);
   cli::add_schema(app, exit_code);
+  cli::add_cache(app, exit_code);
+  cli::add_why(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help

@@ -18,9 +18,8 @@ struct Row {
 
 // What the pipeline's output shows, or nothing.
 std::vector<Fact> facts_of(const PipelineOutput& output, const RunResult& result) {
-  const auto found = result.outputs.find(output.name);
-  if (found == result.outputs.end() || found->second.facts == nullptr) return {};
-  return found->second.facts(found->second.data.get());
+  const NodeRecord& node = result.nodes[output.from.node];
+  return node.status == NodeStatus::ok ? node.facts[output.from.output] : std::vector<Fact>{};
 }
 
 // Six digits say what is worth reading; whole numbers are shown whole.
@@ -69,10 +68,10 @@ std::string results_table(const Pipeline& pipeline, const RunResult& result) {
 std::string results_json(const Pipeline& pipeline, const RunResult& result, const std::filesystem::path& folder) {
   Json outputs = Json::object();
   for (const auto& output : pipeline.outputs) {
-    const auto found = result.outputs.find(output.name);
-    if (found == result.outputs.end() || found->second.facts == nullptr) continue;
+    const auto facts = facts_of(output, result);
+    if (facts.empty()) continue;
     Json& json = outputs[output.name] = Json::object();
-    for (const auto& fact : facts_of(output, result)) {
+    for (const auto& fact : facts) {
       if (fact.name.empty())
         json = to_json(fact);
       else

@@ -2,6 +2,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 
@@ -22,6 +23,7 @@ struct Options {
   std::string out;
   int threads = 0;
   bool quiet = false, json = false, no_hashes = false;
+  CacheChoice cache;
 };
 
 // runs/paper-20240131-093000, or the first of …-2, …-3 that is not there.
@@ -37,6 +39,10 @@ void print_summary(const RunResult& result, const fs::path& folder) {
   for (const auto& node : result.nodes) ++of_status[static_cast<std::size_t>(node.status)];
   const auto number = [&](NodeStatus status) { return of_status[static_cast<std::size_t>(status)]; };
   std::string text = counted(number(NodeStatus::ok), "node") + " done";
+  if (const auto hits = std::count_if(result.nodes.begin(), result.nodes.end(),
+                                      [](const auto& n) { return n.is_hit() && n.status == NodeStatus::ok; });
+      hits > 0)
+    text += fmt::format(" ({} by the cache)", hits);
   for (const auto status : {NodeStatus::failed, NodeStatus::skipped, NodeStatus::cancelled})
     if (number(status) > 0) text += fmt::format(", {} {}", number(status), name_of(status));
   fmt::print(stderr, "{} in {:.2f} s ({}, at most {} MB); see {}\n", text, result.wall,
@@ -60,6 +66,8 @@ int run(const Options& options) {
   run_options.threads = options.threads;
   run_options.hashes = !options.no_hashes;
   run_options.cancel = signals.flag();
+  const auto cache = open_cache(options.cache);
+  run_options.cache = cache.get();
   RunResult result;
   try {
     ConsoleProgress progress(console_options(stderr, options.quiet));
@@ -69,6 +77,8 @@ int run(const Options& options) {
     if (!error.help().empty()) fmt::print(stderr, "  help: {}\n", error.help());
     return usage;
   }
+  for (const auto& problem : result.cache_problems)
+    if (!options.quiet) fmt::print(stderr, "warning: {}\n", problem);
   if (!options.quiet) print_summary(result, run_options.out);
   if (options.json)
     fmt::print("{}", results_json(loaded.pipeline, result, fs::absolute(run_options.out)));
@@ -92,6 +102,7 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->add_flag("-q,--quiet", options->quiet, "no progress and no warnings on stderr, errors only");
   verb->add_flag("--json", options->json, "results as JSON on stdout");
   verb->add_flag("--no-hashes", options->no_hashes, "leave the content hashes of outputs out of manifest.json");
+  add_cache_options(*verb, options->cache);
   verb->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

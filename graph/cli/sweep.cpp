@@ -1,12 +1,15 @@
 // atrium sweep plan|run FILE: many variants of a pipeline as one graph.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "graph/cache/upkeep.hpp"
 #include "graph/cli/signals.hpp"
 #include "graph/cli/verbs.hpp"
 #include "graph/pipeline/registry.hpp"
 #include "graph/run/console_progress.hpp"
+#include "graph/sweep/forecast.hpp"
 #include "graph/sweep/run.hpp"
 #include "graph/sweep/sheets.hpp"
 
@@ -22,6 +25,8 @@ struct Options {
   int threads = 0;
   std::int64_t max_failures = 0;
   bool fail_fast = false, quiet = false, json = false, no_hashes = false;
+  CacheChoice cache;
+  std::string memory;
 };
 
 struct Loaded {
@@ -58,36 +63,79 @@ void print_notes(const SweepPlan& plan) {
   if (plan.excluded > 0) fmt::print(stderr, "note: {} excluded\n", counted(plan.excluded, "combination"));
 }
 
+/// "4 of 12 (2.3 s)": the nodes that are to be run.
+std::string shown(const SweepForecast::Variant& variant) {
+  if (variant.to_run == 0) return fmt::format("0 of {}", variant.known);
+  const std::string time = variant.unknown == variant.to_run
+                               ? ""
+                               : fmt::format(" ({}{:.3g} s)", variant.unknown > 0 ? "> " : "", variant.seconds);
+  return fmt::format("{} of {}{}", variant.to_run, variant.known + variant.to_run, time);
+}
+
+void print_forecast(const SweepForecast& forecast, const SweepPlan& plan, std::size_t done) {
+  std::string text = fmt::format("{}, {} done; {} in all, ", counted(plan.variants.size(), "variant"), done,
+                                 counted(plan.nodes, "node"));
+  text += fmt::format("{} once shared: {} known to the cache, {} to run", plan.merged.nodes.size(), forecast.known,
+                      forecast.to_run);
+  if (forecast.to_run > forecast.unknown) {
+    text += fmt::format(", about {} one after the other", clock_text(forecast.seconds));
+    text += fmt::format(", the largest with {}", size_text(forecast.memory));
+    if (forecast.unknown > 0) text += fmt::format(" (without {} that nothing is known of)", forecast.unknown);
+  }
+  fmt::print(stderr, "{}\n", text);
+}
+
+void print_plan_json(const SweepForecast& forecast, const SweepPlan& plan, const SweepFile& sweep,
+                     const std::vector<bool>& done) {
+  auto variants = nlohmann::ordered_json::array();
+  for (std::size_t v = 0; v < plan.variants.size(); ++v) {
+    const auto& cost = forecast.variants[v];
+    variants.push_back({{"id", plan.variants[v].id},
+                        {"variant", label_of(sweep, plan.variants[v])},
+                        {"done", static_cast<bool>(done[v])},
+                        {"nodes_known", cost.known},
+                        {"nodes_to_run", cost.to_run},
+                        {"nodes_of_unknown_cost", cost.unknown},
+                        {"seconds", cost.seconds}});
+  }
+  const nlohmann::ordered_json json{{"variants", std::move(variants)},
+                                    {"nodes", plan.nodes},
+                                    {"merged_nodes", plan.merged.nodes.size()},
+                                    {"nodes_known", forecast.known},
+                                    {"nodes_to_run", forecast.to_run},
+                                    {"nodes_of_unknown_cost", forecast.unknown},
+                                    {"seconds", forecast.seconds},
+                                    {"memory", forecast.memory},
+                                    {"excluded", plan.excluded},
+                                    {"duplicates", plan.duplicates}};
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
 int plan(const Options& options) {
   Registry registry;
   const Loaded loaded = load(options, registry);
   if (!loaded.sweep) return invalid;
   const SweepPlan& plan = loaded.load.plan;
-  const std::string build = registry.build();
-  std::size_t done = 0;
-  Table table{{{"id"}, {"variant"}, {"done"}}, {}};
-  for (const auto& variant : plan.variants) {
-    const bool known =
-        reusable_result(fs::absolute(folder_of(options)) / "variants" / variant.id, plan, variant, build).has_value();
-    done += known ? 1 : 0;
-    table.rows.push_back({variant.id, label_of(*loaded.sweep, variant), known ? "yes" : ""});
+  const fs::path variants = fs::absolute(folder_of(options)) / "variants";
+  std::vector<bool> done(plan.variants.size(), false);
+  if (fs::exists(variants)) {
+    const std::string build = registry.build();
+    for (std::size_t v = 0; v < done.size(); ++v)
+      done[v] = reusable_result(variants / plan.variants[v].id, plan, plan.variants[v], build).has_value();
   }
+  const auto cache = open_cache(options.cache);
+  const SweepForecast cost = forecast(plan, done, cache.get());
   print_notes(plan);
   if (options.json) {
-    auto variants = nlohmann::ordered_json::array();
-    for (const auto& row : table.rows)
-      variants.push_back({{"id", row[0]}, {"variant", row[1]}, {"done", !row[2].empty()}});
-    const nlohmann::ordered_json json{{"variants", std::move(variants)},
-                                      {"nodes", plan.nodes},
-                                      {"merged_nodes", plan.merged.nodes.size()},
-                                      {"excluded", plan.excluded},
-                                      {"duplicates", plan.duplicates}};
-    fmt::print("{}\n", json.dump(2));
+    print_plan_json(cost, plan, *loaded.sweep, done);
     return ok;
   }
+  Table table{{{"id"}, {"variant"}, {"done"}, {"to run"}}, {}};
+  for (std::size_t v = 0; v < done.size(); ++v)
+    table.rows.push_back({plan.variants[v].id, label_of(*loaded.sweep, plan.variants[v]), done[v] ? "yes" : "",
+                          done[v] ? "" : shown(cost.variants[v])});
   fmt::print("{}", as_text(table));
-  fmt::print(stderr, "{}, {} done; {} of which {} are run, the others are shared\n",
-             counted(plan.variants.size(), "variant"), done, counted(plan.nodes, "node"), plan.merged.nodes.size());
+  print_forecast(cost, plan, static_cast<std::size_t>(std::count(done.begin(), done.end(), true)));
   return ok;
 }
 
@@ -133,6 +181,7 @@ void print_summary(const SweepResult& result, const fs::path& folder) {
   for (const auto status : {NodeStatus::failed, NodeStatus::cancelled})
     if (count[static_cast<std::size_t>(status)] > 0)
       text += fmt::format(", {} {}", count[static_cast<std::size_t>(status)], name_of(status));
+  if (result.known > 0) text += fmt::format("; {} of {} by the cache", result.known, counted(result.nodes, "node"));
   fmt::print(stderr, "{} in {:.2f} s; see {}\n", text, result.wall, folder.string());
 }
 
@@ -148,6 +197,9 @@ int run(const Options& options) {
   sweep_options.threads = options.threads;
   sweep_options.hashes = !options.no_hashes;
   sweep_options.cancel = signals.flag();
+  const auto cache = open_cache(options.cache);
+  sweep_options.cache = cache.get();
+  if (!options.memory.empty()) sweep_options.memory = read_size(options.memory);
   if (options.max_failures > 0) sweep_options.max_failures = static_cast<std::size_t>(options.max_failures);
   if (options.fail_fast) sweep_options.max_failures = 1;
   SweepResult result;
@@ -164,6 +216,8 @@ int run(const Options& options) {
       signals.flag()->load() ? std::vector<std::string>{}
                              : write_sheets(*loaded.sweep, loaded.load.plan, result.variants, registry, sweep_options);
   for (const auto& problem : problems) fmt::print(stderr, "atrium: error: {}\n", problem);
+  for (const auto& problem : result.cache_problems)
+    if (!options.quiet) fmt::print(stderr, "warning: {}\n", problem);
   if (!options.quiet) print_summary(result, sweep_options.out);
   const int code = print_results(options, *loaded.sweep, loaded.load.plan, result);
   if (signals.flag()->load()) return signals.exit_code();
@@ -186,6 +240,7 @@ void add_sweep(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<Options>();
   auto* planned = verb->add_subcommand("plan", "Checks all variants and lists them, with what is done already.");
   add_common(*planned, *options);
+  add_cache_options(*planned, options->cache);
   planned->callback([options, &exit_code] { exit_code = plan(*options); });
   auto* ran = verb->add_subcommand("run", "Runs the variants that are not done; prints their table.");
   add_common(*ran, *options);
@@ -196,6 +251,10 @@ void add_sweep(CLI::App& app, int& exit_code) {
   ran->add_flag("--fail-fast", options->fail_fast, "end when a variant has failed");
   ran->add_flag("-q,--quiet", options->quiet, "no progress and no warnings on stderr, errors only");
   ran->add_flag("--no-hashes", options->no_hashes, "leave the content hashes of outputs out of manifest.json");
+  add_cache_options(*ran, options->cache);
+  ran->add_option("--mem", options->memory,
+                  "a node waits while what runs already may need so much memory with it, as far as it is known from "
+                  "earlier runs: 8 GB");
   ran->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

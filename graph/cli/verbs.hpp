@@ -1,8 +1,10 @@
 #pragma once
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "graph/cache/cache.hpp"
 #include "graph/pipeline/pipeline.hpp"
 
 namespace atrium::cli {
@@ -20,10 +22,21 @@ void add_diff(CLI::App& app, int& exit_code);
 void add_graph(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);
+void add_cache(CLI::App& app, int& exit_code);
+void add_why(CLI::App& app, int& exit_code);
 
 /// The option -s of verbs that read a pipeline.
 void add_settings(CLI::App& verb, std::vector<std::string>& settings);
 std::vector<Override> to_overrides(const std::vector<std::string>& texts);
+/// The options --cache, --no-cache and --cache-size.
+struct CacheChoice {
+  std::string folder, size = "20 GB";
+  bool off = false;
+};
+void add_cache_options(CLI::App& verb, CacheChoice& choice);
+/// Null if there is to be none, or if it cannot be used: that is said on stderr.
+std::unique_ptr<Cache> open_cache(const CacheChoice& choice);
+
 /// "1 node", "2 nodes".
 std::string counted(std::size_t count, std::string_view what);
 /// Warnings and errors, on stderr.

@@ -318,4 +318,14 @@ std::unique_ptr<Document> read_document(const std::filesystem::path& path, std::
   return document;
 }
 
+std::shared_ptr<const Document> ReadDocuments::read(const std::filesystem::path& path, const std::string& name,
+                                                    std::size_t order, Findings& findings) {
+  const std::string key = fmt::format("{}\n{}\n{}", path.string(), name, order);
+  if (const auto known = known_.find(key); known != known_.end()) return known->second;
+  const std::size_t before = findings.count();
+  std::shared_ptr<const Document> document = read_document(path, name, order, findings);
+  if (document && findings.count() == before) known_.emplace(key, document);
+  return document;
+}
+
 }  // namespace atrium

@@ -78,6 +78,17 @@ struct Document {
 std::unique_ptr<Document> read_document(const std::filesystem::path& path, std::string name, std::size_t order,
                                         Findings& findings);
 
+/// Documents that have been read, for whoever loads the same files many times with other settings.
+class ReadDocuments {
+ public:
+  /// As read_document; a file that gave no findings is read once.
+  std::shared_ptr<const Document> read(const std::filesystem::path& path, const std::string& name, std::size_t order,
+                                       Findings& findings);
+
+ private:
+  std::map<std::string, std::shared_ptr<const Document>> known_;
+};
+
 /// The variable that a value names (`${scan}` → "scan"), or nothing.
 std::optional<std::string> variable_of(std::string_view text);
 /// A value without its escapes: `$${` stands for `${`.

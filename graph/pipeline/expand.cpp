@@ -293,7 +293,7 @@ const Document* Expander::document_of(const Scope& scope, const DocumentNode& no
   if (opens_itself(scope, node, identity, name)) return nullptr;
   const auto [entry, unread] = by_identity_.try_emplace(identity, nullptr);
   if (unread) {
-    auto document = read_document(path, name, expansion_.documents.size(), findings_);
+    auto document = expansion_.read->read(path, name, expansion_.documents.size(), findings_);
     entry->second = document.get();
     if (document) expansion_.documents.push_back(std::move(document));
   }

@@ -66,7 +66,8 @@ struct FlatNode {
 
 /// The pipeline with its sub-pipelines opened, before and while it is checked.
 struct Expansion {
-  std::vector<std::unique_ptr<Document>> documents;
+  std::vector<std::shared_ptr<const Document>> documents;
+  ReadDocuments* read = nullptr;     ///< what reads them
   std::deque<Scope> scopes;          ///< the outermost first
   std::deque<DocumentNode> swapped;  ///< nodes that a setting made sub-pipelines of another file
   std::vector<FlatNode> nodes;

@@ -30,6 +30,7 @@ class Findings {
   void error(const Where& where, std::string message, std::string help = {}, std::vector<std::string> notes = {});
   void warning(const Where& where, std::string message, std::string help = {}, std::vector<std::string> notes = {});
   std::size_t error_count() const { return errors_.size(); }
+  std::size_t count() const { return errors_.size() + warnings_.size(); }
 
   /// did_you_mean(), for the first hundred findings: a file full of errors must not take minutes.
   std::string suggest(std::string_view word, const std::vector<std::string>& candidates);

@@ -109,7 +109,9 @@ LoadResult load_pipeline(const std::filesystem::path& file, const std::vector<Ov
   Expansion expansion;
   std::error_code ignored;
   const std::filesystem::path path = std::filesystem::absolute(file, ignored).lexically_normal();
-  if (auto document = read_document(path, file.string(), 0, findings); document) {
+  ReadDocuments own;
+  expansion.read = options.documents == nullptr ? &own : options.documents;
+  if (auto document = expansion.read->read(path, file.string(), 0, findings); document) {
     const Document& root = *document;
     expansion.documents.push_back(std::move(document));
     Overrides overrides(given, root.source, findings);

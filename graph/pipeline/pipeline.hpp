@@ -64,10 +64,13 @@ struct LoadResult {
   std::vector<std::string> missing;  ///< with allow_missing: variables without a value, "inputs.NAME" without a source
 };
 
+class ReadDocuments;
+
 struct LoadOptions {
   /// A file that is complete but for what its user must give (variables without a value, the inputs of a sub-pipeline)
   /// is no error. Such a pipeline can be looked at, not run.
   bool allow_missing = false;
+  ReadDocuments* documents = nullptr;  ///< files that were read by earlier calls; null: all are read
 };
 
 class Registry;

@@ -108,7 +108,7 @@ void ConsoleProgress::finished(const NodeRecord& node) {
     if (!node.help.empty()) line("  help: " + node.help);
   } else if (node.status == NodeStatus::ok && !options_.quiet && !options_.live &&
              (nodes_ <= few_nodes || node.wall >= worth_a_line)) {
-    line(fmt::format("{}: {:.2f} s", node.node, node.wall));
+    line(node.is_hit() ? node.node + ": known to the cache" : fmt::format("{}: {:.2f} s", node.node, node.wall));
   }
 }
 

@@ -34,6 +34,20 @@ Json outputs_of(const NodeRecord& node) {
   return outputs;
 }
 
+Json cache_json(const CacheUse& use) {
+  const bool hit = use.result == CacheUse::Result::hit;
+  Json json{{"result", hit ? "hit" : "miss"}};
+  if (!use.key.empty()) json["key"] = use.key;
+  if (!use.why.empty()) json["why"] = use.why;
+  if (!hit) return json;
+  if (use.again) json["why"] = "run again: its value was needed and is not kept";
+  json["made"] = use.made;
+  json["computing_wall_seconds"] = rounded(use.wall);
+  json["computing_cpu_seconds"] = rounded(use.cpu);
+  json["computing_peak_memory"] = use.peak_memory;
+  return json;
+}
+
 Json node_json(const NodeRecord& node, const NodeType& type) {
   Json json{{"node", node.node}, {"type", node.type}, {"version", type.version}, {"status", name_of(node.status)}};
   if (node.status == NodeStatus::failed) {
@@ -47,6 +61,7 @@ Json node_json(const NodeRecord& node, const NodeType& type) {
     json["peak_memory"] = node.peak_memory;
   }
   if (node.status == NodeStatus::ok) json["outputs"] = outputs_of(node);
+  if (node.cache.result != CacheUse::Result::off) json["cache"] = cache_json(node.cache);
   if (!node.warnings.empty()) json["warnings"] = node.warnings;
   Json artefacts = Json::array();
   for (const auto& a : node.artefacts) artefacts.push_back({{"path", a.path}, {"bytes", a.bytes}});
@@ -94,6 +109,10 @@ std::string manifest_json(const Pipeline& pipeline, const RunResult& result, con
   double hashing = 0;
   for (const auto& node : result.nodes) hashing += node.hash_wall;
   json["hash_seconds"] = rounded(hashing);
+  if (!result.cache_folder.empty()) {
+    json["cache"] = {{"folder", result.cache_folder}, {"loaded_bytes", result.loaded}, {"kept_bytes", result.kept}};
+    if (!result.cache_problems.empty()) json["cache"]["problems"] = result.cache_problems;
+  }
   json["outputs"] = pipeline_outputs(pipeline, result);
   Json nodes = Json::array();
   for (std::size_t n = 0; n < result.nodes.size(); ++n)

@@ -31,11 +31,31 @@ void NodeHost::log(Level level, std::string_view text) {
 }
 
 void NodeHost::wrote(const std::filesystem::path& file) {
+  keep(file);  // before the run's stamp is put into it
   if (is_png(file)) stamp_png(file, stamp_);
   const std::lock_guard lock(mutex_);
   files_.push_back(file);
   if (!folder_.empty() && subfolder_.empty())
     std::ofstream(folder_ / written_journal, std::ios::app) << describe(file, folder_).path + "\n";
+}
+
+void NodeHost::keep(const std::filesystem::path& file) {
+  if (cache_ == nullptr) return;
+  const auto from = std::filesystem::absolute(output_folder()).lexically_normal();
+  const auto relative = std::filesystem::absolute(file).lexically_normal().lexically_relative(from);
+  if (relative.empty() || *relative.begin() == "..") return;
+  std::error_code gone;
+  const std::uint64_t bytes = std::filesystem::file_size(file, gone);
+  const auto hash = cache_->keep_file(file);
+  const std::lock_guard lock(mutex_);
+  if (hash && !gone) kept_[relative.generic_string()] = {relative.generic_string(), bytes, *hash};
+}
+
+std::vector<CacheRecord::File> NodeHost::kept() {
+  const std::lock_guard lock(mutex_);
+  std::vector<CacheRecord::File> files;
+  for (const auto& [path, file] : kept_) files.push_back(file);
+  return files;
 }
 
 void NodeHost::helped(double cpu_seconds) {
@@ -47,6 +67,7 @@ void NodeHost::finish(NodeRecord& record) {
   const std::lock_guard lock(mutex_);
   record.cpu += helped_;
   record.warnings = std::move(warnings_);
+  record.artefacts.clear();
   for (const auto& file : files_) record.artefacts.push_back(describe(file, folder_));
   const auto by_path = [](const Artefact& a, const Artefact& b) { return a.path < b.path; };
   std::sort(record.artefacts.begin(), record.artefacts.end(), by_path);

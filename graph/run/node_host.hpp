@@ -1,10 +1,12 @@
 #pragma once
 #include <atomic>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "graph/cache/cache.hpp"
 #include "graph/pipeline/png_stamp.hpp"
 #include "graph/run/runner.hpp"
 
@@ -16,10 +18,16 @@ inline constexpr std::string_view written_journal = ".written";
 /// What a node's Context is connected to during a run.
 class NodeHost final : public ContextHost {
  public:
-  /// `folder` is the run's, `subfolder` the node's in it.
+  /// `folder` is the run's, `subfolder` the node's in it. With a cache the files that the node writes are kept.
   NodeHost(const std::string& node, const std::filesystem::path& folder, const std::filesystem::path& subfolder,
-           const std::atomic<bool>* cancel, const PngStamp& stamp, ProgressSink& progress)
-      : node_(node), folder_(folder), subfolder_(subfolder), cancel_(cancel), stamp_(stamp), progress_(progress) {}
+           const std::atomic<bool>* cancel, const PngStamp& stamp, ProgressSink& progress, Cache* cache)
+      : node_(node),
+        folder_(folder),
+        subfolder_(subfolder),
+        cancel_(cancel),
+        stamp_(stamp),
+        progress_(progress),
+        cache_(cache) {}
 
   void log(Level level, std::string_view text) override;
   void progress(double share) override { progress_.progress(node_, share); }
@@ -32,17 +40,23 @@ class NodeHost final : public ContextHost {
 
   /// Hands over what the node has said and written; after its end.
   void finish(NodeRecord& record);
+  /// What the cache has of the files that were written: fewer if it could not keep one.
+  std::vector<CacheRecord::File> kept();
 
  private:
+  void keep(const std::filesystem::path& file);
+
   const std::string& node_;
   const std::filesystem::path& folder_;
   const std::filesystem::path& subfolder_;
   const std::atomic<bool>* cancel_;
   const PngStamp& stamp_;  ///< goes into every picture that the node writes
   ProgressSink& progress_;
+  Cache* cache_;
   std::mutex mutex_;
   std::vector<std::string> warnings_;
   std::vector<std::filesystem::path> files_;
+  std::map<std::string, CacheRecord::File> kept_;  ///< by path
   double helped_ = 0;
 };
 

@@ -58,10 +58,10 @@ std::vector<std::pair<std::string, std::uint64_t>> written_by(const nlohmann::js
 
 }  // namespace
 
-void write_file(const fs::path& target, const std::string& text) {
+void write_file(const fs::path& target, const std::string& text, bool flush) {
   AtomicFile file(target);
   file.write(text);
-  file.commit();
+  file.publish(flush);
 }
 
 RunFolder::RunFolder(fs::path folder, const Pipeline& pipeline)

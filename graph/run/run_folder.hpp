@@ -7,8 +7,8 @@
 
 namespace atrium {
 
-/// Writes a whole file: beside, then renamed. Throws Error.
-void write_file(const std::filesystem::path& target, const std::string& text);
+/// Writes a whole file: beside, then renamed. Without `flush` it may be cut off after a power failure. Throws Error.
+void write_file(const std::filesystem::path& target, const std::string& text, bool flush = true);
 
 /// The file that marks the folder of a sweep.
 inline constexpr std::string_view sweep_mark = "sweep.json";

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,8 @@
 
 namespace atrium {
 
+class Cache;
+
 struct RunOptions {
   std::filesystem::path out;  ///< the run's folder; empty: nothing is recorded, nodes write into the working folder
   int threads = 0;            ///< 0: one per core; 1: strictly one after the other
@@ -21,6 +24,11 @@ struct RunOptions {
   /// What goes into the pictures of a node; empty: stamp_of() the pipeline.
   std::function<const PngStamp&(const PipelineNode& node)> stamp;
   const std::atomic<bool>* stop = nullptr;  ///< the same, but the nodes that run are let finish
+  std::uint64_t memory = 0;                 ///< bytes that nodes which run at the same time may need together; 0: any
+  /// What a node will probably need (asked under a lock); nothing: not known, then it runs alone. Null: nothing is
+  /// known.
+  std::function<std::optional<std::uint64_t>(const PipelineNode& node)> memory_of;
+  Cache* cache = nullptr;  ///< what earlier runs computed is not computed again; outputs are hashed in any case
 };
 
 enum class NodeStatus {
@@ -44,6 +52,17 @@ struct Artefact {
   std::uint64_t bytes = 0;
 };
 
+/// What the cache had of a node.
+struct CacheUse {
+  enum class Result { off, hit, miss } result = Result::off;
+  std::string key;           ///< empty: the node has none
+  std::string why;           ///< of a miss
+  bool again = false;        ///< of a hit: the node was run all the same, because a value was needed that is not kept
+  double wall = 0, cpu = 0;  ///< of a hit: what it took when it was computed
+  std::uint64_t peak_memory = 0;  ///< of a hit: as it was then
+  std::string made;               ///< of a hit: when that was
+};
+
 /// What became of one node. Seconds are since the run's start (`start`) or lengths of time.
 struct NodeRecord {
   std::string node, type;
@@ -63,6 +82,13 @@ struct NodeRecord {
   std::vector<std::vector<Fact>> facts;  ///< per output: what is printed of it
   std::vector<std::string> warnings;
   std::vector<Artefact> artefacts;
+  CacheUse cache;
+
+  bool is_hit() const { return cache.result == CacheUse::Result::hit; }
+  /// What computing it took, now or when it was.
+  double computing_wall() const { return is_hit() && !cache.again ? cache.wall : wall; }
+  double computing_cpu() const { return is_hit() && !cache.again ? cache.cpu : cpu; }
+  std::uint64_t computing_memory() const { return is_hit() && !cache.again ? cache.peak_memory : peak_memory; }
 };
 
 struct NodeFailure {
@@ -72,11 +98,16 @@ struct NodeFailure {
 struct RunResult {
   std::vector<NodeFailure> failures;  ///< in the pipeline's order; empty and not cancelled: the run is complete
   bool cancelled = false;
-  std::map<std::string, Value> outputs;  ///< the pipeline's named outputs, as far as their nodes are ok
-  std::vector<NodeRecord> nodes;         ///< one per node of the pipeline, in its order
+  /// The pipeline's named outputs, as far as their values are there: the node is ok, and its value was not in the
+  /// cache only (NodeRecord::facts has what is printed of it).
+  std::map<std::string, Value> outputs;
+  std::vector<NodeRecord> nodes;  ///< one per node of the pipeline, in its order
   int threads = 0;
-  double wall = 0, cpu = 0;       ///< of the whole run; cpu: all threads of the process
-  std::uint64_t peak_memory = 0;  ///< of the process, bytes
+  double wall = 0, cpu = 0;            ///< of the whole run; cpu: all threads of the process
+  std::uint64_t peak_memory = 0;       ///< of the process, bytes
+  std::string cache_folder;            ///< empty: there was no cache
+  std::uint64_t loaded = 0, kept = 0;  ///< bytes of values, from and to the cache
+  std::vector<std::string> cache_problems;
 };
 
 /// The run's folder cannot be used.
@@ -105,5 +136,8 @@ class ProgressSink {
 /// is cancelled). Results do not depend on the number of threads. Throws FolderError, and Error if the
 /// pipeline is not one (nodes in a circle).
 RunResult run_pipeline(const Pipeline& pipeline, const RunOptions& options, ProgressSink& progress);
+
+/// Waits until the cache has written what it keeps, and takes over what it did. Null: does nothing.
+void finish_cache(Cache* cache, RunResult& result);
 
 }  // namespace atrium

@@ -29,16 +29,18 @@ Scheduler::Scheduler(const Pipeline& pipeline, const RunOptions& options, Progre
     : pipeline_(pipeline),
       options_(options),
       progress_(progress),
+      cache_(options.cache),
       plan_(make_plan(pipeline)),
       picture_stamp_(stamp_of(pipeline)),
-      values_(pipeline.nodes.size()),
-      blocked_(pipeline.nodes.size(), 0),
-      blocker_(pipeline.nodes.size(), pipeline.nodes.size()) {
+      admission_(options.memory, options.memory_of),
+      states_(pipeline.nodes.size()) {
   result_.nodes.resize(pipeline.nodes.size());
   for (std::size_t n = 0; n < pipeline.nodes.size(); ++n) {
     result_.nodes[n].node = pipeline.nodes[n].path;
     result_.nodes[n].type = pipeline.nodes[n].type->type;
-    values_[n].resize(pipeline.nodes[n].type->outputs.size());
+    states_[n].values.resize(pipeline.nodes[n].type->outputs.size());
+    states_[n].wanted.resize(pipeline.nodes[n].type->outputs.size(), 0);
+    states_[n].blocker = pipeline.nodes.size();
   }
 }
 
@@ -48,6 +50,7 @@ RunResult Scheduler::run() {
   start_ = wall_seconds();
   peak_memory_ = peak_memory();
   progress_.planned(pipeline_.nodes.size());
+  if (cache_ != nullptr) note_builds();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads, 1);
   arena.execute([&] {
@@ -56,13 +59,13 @@ RunResult Scheduler::run() {
       for (std::size_t i = 0; i < tasks; ++i) group.run([this] { step(); });
     };
     for (std::size_t n = 0; n < pipeline_.nodes.size(); ++n)
-      if (plan_.waits[n] == 0) ready_.push({stamp_, n, plan_.followers[n].empty(), plan_.remaining[n]});
+      if (plan_.waits[n] == 0) push(n, cache_ == nullptr ? Step::run : Step::look);
     ++stamp_;
     spawn_(ready_.size());
     group.wait();
   });
   for (const auto& output : pipeline_.outputs) {
-    const Value& value = values_[output.from.node][output.from.output];
+    const Value& value = states_[output.from.node].values[output.from.output];
     if (value.data) result_.outputs[output.name] = value;
   }
   for (const auto& node : result_.nodes) {
@@ -75,52 +78,93 @@ RunResult Scheduler::run() {
 bool Scheduler::cancelled() const { return options_.cancel != nullptr && options_.cancel->load(); }
 bool Scheduler::stopping() const { return cancelled() || (options_.stop != nullptr && options_.stop->load()); }
 
+void Scheduler::push(std::size_t n, Step step) {
+  ready_.push({stamp_, n, plan_.followers[n].empty(), plan_.remaining[n], step});
+}
+
 void Scheduler::step() {
-  std::size_t n = 0;
+  Ready next{};
   {
     const std::lock_guard lock(mutex_);
-    n = ready_.top().node;
+    next = ready_.top();
     ready_.pop();
+    if (next.step == Step::run && !stopping() && !admission_.admit(next.node, pipeline_.nodes[next.node])) return;
   }
-  if (!stopping()) {
-    execute(n);
-    return;
-  }
-  progress_.finished(result_.nodes[n]);
-  settle(n, {});
+  if (stopping())
+    abandon(next.node);
+  else if (next.step == Step::look)
+    look(next.node);
+  else if (next.step == Step::fetch)
+    fetch(next.node);
+  else
+    execute(next.node);
 }
 
 void Scheduler::execute(std::size_t n) {
   NodeRecord& record = result_.nodes[n];
-  progress_.started(record.node);
   Inputs inputs;
+  bool again = false;
   {
     const std::lock_guard lock(mutex_);
     inputs = inputs_of(n);
+    again = states_[n].settled;
   }
+  if (!again) progress_.started(record.node);
   std::vector<Value> outputs;
   if (result_.threads == 1) reset_peak_memory();
-  const bool ok = call(n, inputs, outputs);
+  const bool watch_memory = cache_ != nullptr || options_.memory > 0;
+  const std::uint64_t before = watch_memory ? resident_memory() : 0;
+  bool ok = call(n, inputs, outputs);
   inputs.clear();  // the last reference goes in settle
   if (record.wall >= peak_reading_interval || result_.threads == 1) peak_memory_ = peak_memory();
   record.peak_memory = peak_memory_;
-  if (ok)
-    record.status = NodeStatus::ok;
-  else
-    outputs.clear();
-  for (const auto& value : outputs)
-    record.facts.push_back(value.facts == nullptr ? std::vector<Fact>{} : value.facts(value.data.get()));
-  progress_.finished(record);
-  settle(n, outputs);
-  if (ok) describe(n, outputs);
+  if (ok) {
+    record.facts.clear();
+    for (const auto& value : outputs)
+      record.facts.push_back(value.facts == nullptr ? std::vector<Fact>{} : value.facts(value.data.get()));
+  }
+  if (ok && cache_ != nullptr) {  // the nodes that read the outputs need their hashes
+    describe(n, outputs);
+    ok = !again || hashes_are_right(n);
+  }
+  if (ok && !again) record.status = NodeStatus::ok;
+  if (!ok) outputs.clear();
+  const std::uint64_t growth = record.peak_memory > before ? record.peak_memory - before : 0;
+  // Before others start: whatever they do to the process, this is done.
+  if (ok && cache_ != nullptr) keep(n, outputs, growth);
+  if (again) {
+    if (record.status == NodeStatus::failed) progress_.message(record.node, record.message, true);
+    settle_again(n, outputs);
+  } else {
+    progress_.finished(record);
+    settle(n, outputs);
+    if (ok && cache_ == nullptr) describe(n, outputs);
+    if (ok) progress_.described(record);
+  }
+  if (options_.memory == 0) return;
+  std::size_t tasks = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    admission_.done(n, record.type, growth);
+    tasks = retry_refused();
+  }
+  spawn_(tasks);
+}
+
+/// Nodes that had to wait for memory.
+std::size_t Scheduler::retry_refused() {
+  const auto refused = admission_.later();
+  for (const std::size_t n : refused) push(n, Step::run);
+  return refused.size();
 }
 
 bool Scheduler::call(std::size_t n, const Inputs& inputs, std::vector<Value>& outputs) {
   const PipelineNode& node = pipeline_.nodes[n];
   NodeRecord& record = result_.nodes[n];
   const PngStamp& stamp = options_.stamp ? options_.stamp(node) : picture_stamp_;
+  Cache* keeper = states_[n].key.fields.empty() ? nullptr : cache_;
   const auto host =
-      std::make_shared<NodeHost>(record.node, options_.out, node.folder, options_.cancel, stamp, progress_);
+      std::make_shared<NodeHost>(record.node, options_.out, node.folder, options_.cancel, stamp, progress_, keeper);
   Context context(node.seed, host, node.type->random);
   record.thread = tbb::this_task_arena::current_thread_index();
   record.start = wall_seconds() - start_;
@@ -144,6 +188,7 @@ bool Scheduler::call(std::size_t n, const Inputs& inputs, std::vector<Value>& ou
   record.wall = wall_seconds() - start_ - record.start;
   record.cpu = thread_cpu_seconds() - cpu;
   host->finish(record);
+  states_[n].kept = host->kept();
   for (std::size_t i = 0; ok && i < outputs.size(); ++i) {
     ok = outputs[i].data != nullptr;
     if (!ok)
@@ -161,20 +206,20 @@ void Scheduler::fail(std::size_t n, std::string message, std::string help) {
 
 void Scheduler::describe(std::size_t n, const std::vector<Value>& outputs) {
   NodeRecord& record = result_.nodes[n];
+  record.outputs.clear();
   record.hash_start = wall_seconds() - start_;
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const PortInfo& port = pipeline_.nodes[n].type->outputs[i];
     OutputRecord output{port.name, port.type, 0, {}};
     try {
       output.bytes = outputs[i].bytes(outputs[i].data.get());
-      if (options_.hashes) output.hash = outputs[i].hash(outputs[i].data.get());
+      if (options_.hashes || cache_ != nullptr) output.hash = outputs[i].hash(outputs[i].data.get());
     } catch (const std::exception& error) {
       record.warnings.push_back("output '" + port.name + "' could not be hashed: " + error.what());
     }
     record.outputs.push_back(std::move(output));
   }
   record.hash_wall = wall_seconds() - start_ - record.hash_start;
-  progress_.described(record);
 }
 
 Scheduler::Inputs Scheduler::inputs_of(std::size_t n) const {
@@ -182,20 +227,21 @@ Scheduler::Inputs Scheduler::inputs_of(std::size_t n) const {
   inputs.reserve(pipeline_.nodes[n].inputs.size());
   for (const auto& port : pipeline_.nodes[n].inputs) {
     auto& values = inputs.emplace_back();
-    for (const Edge& edge : port) values.push_back(values_[edge.node][edge.output]);
+    for (const Edge& edge : port) values.push_back(states_[edge.node].values[edge.output]);
   }
   return inputs;
 }
 
 void Scheduler::keep_outputs(std::size_t n, const std::vector<Value>& outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i)
-    if (plan_.readers[n][i] > 0) values_[n][i] = outputs[i];
+    if (plan_.readers[n][i] > 0) states_[n].values[i] = outputs[i];
 }
 
 void Scheduler::release_inputs(std::size_t n, std::vector<Value>& garbage) {
   for (const auto& port : pipeline_.nodes[n].inputs) {
     for (const Edge& edge : port) {
-      if (--plan_.readers[edge.node][edge.output] == 0) garbage.push_back(std::move(values_[edge.node][edge.output]));
+      Value& value = states_[edge.node].values[edge.output];
+      if (--plan_.readers[edge.node][edge.output] == 0) garbage.push_back(std::exchange(value, {}));
     }
   }
 }
@@ -203,14 +249,24 @@ void Scheduler::release_inputs(std::size_t n, std::vector<Value>& garbage) {
 void Scheduler::block(std::size_t follower, std::size_t by) {
   const NodeStatus status = result_.nodes[by].status;
   if (status == NodeStatus::ok) return;
-  blocked_[follower] = 1;
-  if (status == NodeStatus::failed) blocker_[follower] = std::min(blocker_[follower], by);
-  if (status == NodeStatus::skipped) blocker_[follower] = std::min(blocker_[follower], blocker_[by]);
+  State& state = states_[follower];
+  state.blocked = true;
+  if (status == NodeStatus::failed) state.blocker = std::min(state.blocker, by);
+  if (status == NodeStatus::skipped) state.blocker = std::min(state.blocker, states_[by].blocker);
 }
 
-// What can run now is put on the queue (returned: how many); what cannot run any more is passed through at once.
-std::size_t Scheduler::release_followers(std::size_t n, std::vector<Value>& garbage,
-                                         std::vector<std::size_t>& blocked) {
+/// A node that cannot run any more.
+void Scheduler::pass_over(std::size_t n, std::vector<Value>& garbage) {
+  if (states_[n].blocker != pipeline_.nodes.size()) {
+    result_.nodes[n].status = NodeStatus::skipped;
+    result_.nodes[n].because = result_.nodes[states_[n].blocker].node;
+  }
+  states_[n].settled = true;
+  release_inputs(n, garbage);
+}
+
+// What can run now is put on the queue (returned: how many); what cannot run any more is passed over at once.
+std::size_t Scheduler::release_followers(std::size_t n, std::vector<Value>& garbage, std::vector<std::size_t>& passed) {
   std::size_t started = 0;
   std::vector<std::size_t> settled{n};
   while (!settled.empty()) {
@@ -219,18 +275,13 @@ std::size_t Scheduler::release_followers(std::size_t n, std::vector<Value>& garb
     for (const std::size_t f : plan_.followers[by]) {
       block(f, by);
       if (--plan_.waits[f] > 0) continue;
-      if (blocked_[f] == 0) {
-        ready_.push({stamp_, f, plan_.followers[f].empty(), plan_.remaining[f]});
+      if (!states_[f].blocked) {
+        push(f, cache_ == nullptr ? Step::run : Step::look);
         ++started;
         continue;
       }
-      const std::size_t none = pipeline_.nodes.size();
-      if (blocker_[f] != none) {
-        result_.nodes[f].status = NodeStatus::skipped;
-        result_.nodes[f].because = result_.nodes[blocker_[f]].node;
-      }
-      release_inputs(f, garbage);
-      blocked.push_back(f);
+      pass_over(f, garbage);
+      passed.push_back(f);
       settled.push_back(f);
     }
   }
@@ -240,16 +291,19 @@ std::size_t Scheduler::release_followers(std::size_t n, std::vector<Value>& garb
 
 void Scheduler::settle(std::size_t n, const std::vector<Value>& outputs) {
   std::vector<Value> garbage;
-  std::vector<std::size_t> blocked;
+  std::vector<std::size_t> passed;
   std::size_t started = 0;
   {
     const std::lock_guard lock(mutex_);
+    states_[n].settled = true;
+    states_[n].hashes.clear();
+    for (const auto& output : result_.nodes[n].outputs) states_[n].hashes.push_back(output.hash);
     keep_outputs(n, outputs);
     release_inputs(n, garbage);
-    started = release_followers(n, garbage, blocked);
+    started = release_followers(n, garbage, passed);
   }
   spawn_(started);
-  for (const std::size_t b : blocked) progress_.finished(result_.nodes[b]);
+  for (const std::size_t p : passed) progress_.finished(result_.nodes[p]);
   // Here, without the lock and after the next nodes were started, the garbage is freed.
 }
 

@@ -5,7 +5,9 @@
 #include <queue>
 #include <vector>
 
+#include "graph/cache/cache.hpp"
 #include "graph/pipeline/png_stamp.hpp"
+#include "graph/run/admission.hpp"
 #include "graph/run/plan.hpp"
 #include "graph/run/runner.hpp"
 
@@ -16,6 +18,11 @@ namespace atrium {
 /// Order: of the nodes that can run, the one that became ready last goes first (depth first, so that few values are
 /// alive); of those that became ready together, first one that nothing reads (it frees its inputs and keeps nothing),
 /// then the one with the longest way to an end, then the first in the file.
+///
+/// With a cache a node goes through up to three steps. Look: when the hashes of its inputs are known, so is its key. If
+/// the cache has the record, the node is done: its outputs' hashes are known, their values are not loaded. Else it is
+/// run, and the values that it lacks are fetched first: loaded, or, if they are not kept, made by running the node that
+/// they are of again (which may lack values, too).
 class Scheduler {
  public:
   Scheduler(const Pipeline& pipeline, const RunOptions& options, ProgressSink& progress);
@@ -24,11 +31,29 @@ class Scheduler {
 
  private:
   using Inputs = std::vector<std::vector<Value>>;
+  enum class Step { look, fetch, run };
   struct Ready {
     std::size_t stamp, node;
     bool is_end;
     std::size_t remaining;
+    Step step;
     bool operator<(const Ready& other) const;
+  };
+  struct State {
+    std::vector<Value> values;  ///< per output; null when not made or loaded, or no longer needed
+    bool blocked = false;       ///< it cannot run any more
+    std::size_t blocker = 0;    ///< the first failed node that it depends on, or the number of nodes
+    bool settled = false;       ///< its followers know what became of it
+    // With a cache:
+    std::vector<std::string> hashes;      ///< per output, when it is settled
+    NodeKey key;                          ///< empty: it has none
+    std::vector<std::string> files;       ///< fingerprints of the files that it reads, as they were for the key
+    std::vector<char> wanted;             ///< outputs whose values others wait for
+    std::vector<std::size_t> waiters;     ///< nodes that wait for them
+    bool under_way = false;               ///< they are being fetched
+    std::size_t lacking = 0;              ///< nodes whose values it waits for
+    double cost = 0;                      ///< seconds to have its values again; 0: they are kept
+    std::vector<CacheRecord::File> kept;  ///< the files that it wrote
   };
 
   void step();
@@ -39,16 +64,34 @@ class Scheduler {
   void settle(std::size_t n, const std::vector<Value>& outputs);
   bool cancelled() const;
   bool stopping() const;
+  // With a cache (demand.cpp):
+  void note_builds();
+  void look(std::size_t n);
+  bool find_key(std::size_t n);
+  bool replay(std::size_t n, const CacheRecord& found);
+  void fetch(std::size_t p);
+  void settle_again(std::size_t n, const std::vector<Value>& outputs);
+  void abandon(std::size_t n);
+  void drop_waiters(std::size_t n);
+  bool hashes_are_right(std::size_t n);
+  void keep(std::size_t n, const std::vector<Value>& outputs, std::uint64_t growth);
+  double cost_of_inputs(std::size_t n);
   // With mutex_ held:
+  void push(std::size_t n, Step step);
+  std::size_t retry_refused();
+  std::size_t demand(std::size_t n);
+  std::size_t wake(std::size_t p);
   Inputs inputs_of(std::size_t n) const;
   void keep_outputs(std::size_t n, const std::vector<Value>& outputs);
   void release_inputs(std::size_t n, std::vector<Value>& garbage);
   void block(std::size_t follower, std::size_t by);
-  std::size_t release_followers(std::size_t n, std::vector<Value>& garbage, std::vector<std::size_t>& blocked);
+  void pass_over(std::size_t n, std::vector<Value>& garbage);
+  std::size_t release_followers(std::size_t n, std::vector<Value>& garbage, std::vector<std::size_t>& passed);
 
   const Pipeline& pipeline_;
   const RunOptions& options_;
   ProgressSink& progress_;
+  Cache* cache_;
   Plan plan_;
   PngStamp picture_stamp_;
   double start_ = 0;
@@ -58,9 +101,8 @@ class Scheduler {
   std::mutex mutex_;
   std::priority_queue<Ready> ready_;
   std::size_t stamp_ = 0;
-  std::vector<std::vector<Value>> values_;  ///< [node][output]; null when not made yet or no longer needed
-  std::vector<char> blocked_;               ///< per node: it cannot run any more
-  std::vector<std::size_t> blocker_;        ///< per node: the first failed node that it depends on, or nodes.size()
+  Admission admission_;
+  std::vector<State> states_;
   RunResult result_;
 };
 

@@ -18,6 +18,8 @@ Json span(const NodeRecord& node, std::string_view category, double start, doubl
 void add_node(Json& events, const NodeRecord& node) {
   Json event = span(node, node.type, node.start, node.wall);
   event["args"] = {{"type", node.type}, {"status", name_of(node.status)}, {"cpu_seconds", node.cpu}};
+  if (node.cache.result != CacheUse::Result::off)
+    event["args"]["cache"] = !node.is_hit() ? "miss" : node.cache.again ? "run again" : "hit";
   if (!node.message.empty()) event["args"]["message"] = node.message;
   for (const auto& output : node.outputs) event["args"]["bytes." + output.port] = output.bytes;
   events.push_back(std::move(event));

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "graph/api/suggest.hpp"
+#include "graph/pipeline/document.hpp"
 
 namespace atrium {
 namespace {
@@ -125,7 +126,7 @@ class Planner {
       ++result_.plan.excluded;
       return;
     }
-    LoadResult loaded = load_pipeline(sweep_.base, overrides(choices), registry_);
+    LoadResult loaded = load_pipeline(sweep_.base, overrides(choices), registry_, {false, &documents_});
     keep(loaded.errors, errors_, result_.errors);
     keep(loaded.warnings, warnings_, result_.warnings);
     if (!loaded.errors.empty()) return;
@@ -216,6 +217,7 @@ class Planner {
   const SweepFile& sweep_;
   const std::vector<Override>& given_;
   Registry& registry_;
+  ReadDocuments documents_;
   Findings findings_;
   SweepLoad result_;
   std::set<std::string> errors_, warnings_;

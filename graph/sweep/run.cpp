@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
+#include "graph/cache/costs.hpp"
 #include "graph/run/clocks.hpp"
 #include "graph/run/manifest.hpp"
 #include "graph/run/run_folder.hpp"
@@ -103,7 +104,7 @@ class Recorder final : public ProgressSink {
       std::error_code ignored;
       fs::remove_all(folder, ignored);
       fs::create_directories(folder, ignored);
-      write_file(folder / "resolved.yaml", resolved_yaml(variant_pipeline(sweep_, plan_, variant)));
+      write_file(folder / "resolved.yaml", resolved_yaml(variant_pipeline(sweep_, plan_, variant)), false);
       left_[v] = variant.nodes.size();
       for (const std::size_t n : variant.nodes) {
         wanted[n] = true;
@@ -168,16 +169,22 @@ class Recorder final : public ProgressSink {
     if (result.status == NodeStatus::failed && ++failures_ >= options_.max_failures) stop_ = true;
     if (result.status == NodeStatus::cancelled) return;  // it is done anew next time
     write_file(folder_of(variant) / "result.json",
-               result_json(folder_of(variant), sweep_, plan_, variant, result, build_));
+               result_json(folder_of(variant), sweep_, plan_, variant, result, build_),
+               false);  // if it is cut off, the variant is not done
   }
 
   void add_node(const SweepVariant& variant, std::size_t n, VariantResult& result) {
     const NodeRecord& record = records_[n];
-    result.nodes.push_back(
-        {path_of(n), record.type, record.status, record.wall, record.cpu, record.peak_memory, record.outputs});
+    result.nodes.push_back({path_of(n), record.type, record.status, record.computing_wall(), record.computing_cpu(),
+                            record.computing_memory(), record.outputs});
     if (record.status == NodeStatus::failed && result.message.empty())
       result.message = path_of(n) + ": " + record.message;
     if (record.status == NodeStatus::failed) result.status = NodeStatus::failed;
+    if (record.status == NodeStatus::skipped && result.status == NodeStatus::ok) {
+      // Its own nodes are all right: one of them was to be run again for a value, and that failed.
+      result.status = NodeStatus::failed;
+      result.message = path_of(n) + ": " + record.because + " failed";
+    }
     if (record.status == NodeStatus::cancelled && result.status == NodeStatus::ok)
       result.status = NodeStatus::cancelled;
     for (const auto& artefact : record.artefacts) add_artefact(variant, n, artefact, result);
@@ -248,16 +255,28 @@ SweepResult run_sweep(const SweepFile& sweep, const SweepPlan& plan, const std::
     run_options.hashes = options.hashes;
     run_options.cancel = options.cancel;
     run_options.stop = recorder.stop();
+    run_options.cache = options.cache;
+    Costs costs(options.cache == nullptr ? CachePlaces{} : options.cache->places());
+    run_options.memory = options.memory;
+    if (options.cache != nullptr)
+      run_options.memory_of = [&](const PipelineNode& node) -> std::optional<std::uint64_t> {
+        const auto cost = costs.of(node.type->type, address_of(node));
+        return cost ? std::optional(cost->memory) : std::nullopt;
+      };
     run_options.stamp = [&](const PipelineNode& node) -> const PngStamp& { return recorder.stamp_of_variant(node); };
     const double start = wall_seconds();
     const double cpu = process_cpu_seconds();
     RunResult run = Scheduler(pipeline, run_options, recorder).run();
+    finish_cache(options.cache, run);
     run.wall = result.wall = wall_seconds() - start;
     run.cpu = process_cpu_seconds() - cpu;
     run.peak_memory = peak_memory();
     for (const auto& node : run.nodes) run.peak_memory = std::max(run.peak_memory, node.peak_memory);
     result.peak_memory = run.peak_memory;
     result.cancelled = run.cancelled;
+    result.nodes = run.nodes.size();
+    for (const auto& node : run.nodes) result.known += node.is_hit() ? 1 : 0;
+    result.cache_problems = run.cache_problems;
     write_file(options.out / "trace.json", trace_json(run));
     write_file(options.out / "manifest.json", manifest_json(pipeline, run, started));
   }

@@ -9,6 +9,8 @@ struct SweepOptions {
   bool hashes = true;
   std::size_t max_failures = ~std::size_t{0};  ///< end the sweep when so many variants have failed
   const std::atomic<bool>* cancel = nullptr;
+  Cache* cache = nullptr;
+  std::uint64_t memory = 0;  ///< bytes that the nodes which run at the same time may need together; 0: any
 };
 
 struct SweepResult {
@@ -16,6 +18,8 @@ struct SweepResult {
   bool cancelled = false;
   double wall = 0;
   std::uint64_t peak_memory = 0;
+  std::size_t nodes = 0, known = 0;  ///< nodes of the variants that were not done; of them those that the cache had
+  std::vector<std::string> cache_problems;
 };
 
 /// Runs the variants that are not done yet, nodes that several share once, into OUT/variants/ID. A variant is recorded

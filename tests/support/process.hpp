@@ -18,7 +18,7 @@ namespace atrium::test {
 
 struct ProcessOptions {
   std::filesystem::path folder;          ///< working folder; empty: the test's own
-  std::vector<std::string> environment;  ///< "NAME=VALUE", in addition to the test's own
+  std::vector<std::string> environment;  ///< "NAME=VALUE", in addition to the test's own; there is no cache otherwise
   double timeout = 60;                   ///< seconds, then the process is killed
   bool terminal = false;                 ///< stderr is a terminal of 80 columns
   /// Called every few milliseconds while the process runs, with what it has written to stderr so far.
@@ -56,6 +56,7 @@ inline Channel make_terminal() {
   ::dup2(out, STDOUT_FILENO);
   ::dup2(err, STDERR_FILENO);
   if (!options.folder.empty() && ::chdir(options.folder.c_str()) != 0) ::_exit(127);
+  ::setenv("ATRIUM_CACHE", "off", 1);  // NOLINT(concurrency-mt-unsafe): the user's is no part of a test
   for (const auto& variable : options.environment) ::putenv(const_cast<char*>(variable.c_str()));
   std::vector<char*> arguments;
   for (const auto& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));

@@ -1,0 +1,314 @@
+#include "graph/cache/cache.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "graph/api/context.hpp"
+#include "graph/cache/blob.hpp"
+#include "graph/cache/mapped_file.hpp"
+#include "graph/cache/upkeep.hpp"
+#include "graph/run/clocks.hpp"
+
+namespace atrium {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double first_rate = 200e6;       // bytes per second, until it has been measured
+constexpr double seconds_per_file = 0.01;  // of a value, besides its bytes
+constexpr std::uint64_t measurable = 1'000'000;
+constexpr std::uint64_t most_waiting = 1'000'000'000;  // bytes of values that are kept in memory until they are written
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw Error("cannot make the folder " + folder.string() + ": " + error.message());
+}
+
+/// Removes a file that is of no use.
+void discard(const fs::path& file) {
+  std::error_code ignored;
+  fs::remove(file, ignored);
+}
+
+/// In the cache's folder: changed when garbage was last collected.
+constexpr std::string_view collected = ".collected";
+
+bool used_since(const fs::path& file, std::chrono::hours time) {
+  std::error_code missing;
+  const auto then = fs::last_write_time(file, missing);
+  return !missing && fs::file_time_type::clock::now() - then < time;
+}
+
+void write_bytes(const fs::path& target, const void* data, std::size_t size) {
+  AtomicFile out(target);
+  out.write(data, size);
+  out.publish();
+}
+
+}  // namespace
+
+Cache::Cache(CacheOptions options)
+    : options_(std::move(options)),
+      places_{fs::absolute(options_.folder).lexically_normal()},
+      files_(places_.hashes()),
+      builds_(files_),
+      rate_(first_rate) {
+  make_folder(places_.hashes());
+}
+
+Cache::~Cache() {
+  finish();
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  wake_.notify_all();
+  if (writer_.joinable()) writer_.join();
+}
+
+NodeKey Cache::key_of(const PipelineNode& node, const std::vector<std::vector<std::string>>& inputs) {
+  return make_key(node, inputs, builds_.of(*node.type), files_);
+}
+
+std::optional<CacheRecord> Cache::find(const std::string& type, const std::string& key) {
+  const fs::path file = places_.record(type, key);
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
+  std::ostringstream text;
+  text << in.rdbuf();
+  auto record = read_record(text.str());
+  if (!record || record->key != key) {
+    discard(file);
+    problem(file.string() + " is damaged: the node is run again");
+    return std::nullopt;
+  }
+  touch(file);
+  return record;
+}
+
+bool Cache::restore(const CacheRecord::File& file, const fs::path& target) {
+  const fs::path source = places_.file(file.hash);
+  std::error_code missing;
+  if (!fs::exists(source, missing)) return false;
+  std::string damage;
+  try {
+    const MappedFile map(source);
+    ContentHash hash;
+    hash.bytes(map.data(), map.size());
+    if (hash.hex() == file.hash) {
+      make_folder(target.parent_path());
+      write_bytes(target, map.data(), map.size());
+      touch(source);
+      return true;
+    }
+    damage = source.string() + " is damaged: the node that wrote it is run again";
+  } catch (const Error& error) {
+    damage = error.what();
+  }
+  discard(source);
+  problem(damage);
+  return false;
+}
+
+std::shared_ptr<const void> Cache::alive(const FlatType& type, const std::string& hash) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = alive_.find({&type, hash});
+  return found == alive_.end() ? nullptr : found->second.lock();
+}
+
+void Cache::remember(const FlatType& type, const std::string& hash, const std::shared_ptr<const void>& data) {
+  const std::lock_guard lock(mutex_);
+  if (alive_.size() >= alive_limit_) {
+    std::erase_if(alive_, [](const auto& entry) { return entry.second.expired(); });
+    alive_limit_ = std::max<std::size_t>(1024, 2 * alive_.size());
+  }
+  alive_[{&type, hash}] = data;
+}
+
+bool Cache::has_value(const FlatType& type, const std::string& hash) const {
+  std::error_code missing;
+  return alive(type, hash) != nullptr || fs::exists(places_.value(type, hash), missing);
+}
+
+std::shared_ptr<const void> Cache::load(const FlatType& type, const std::string& hash) {
+  const std::lock_guard one_at_a_time(loading_);
+  return load_whole(type, hash);
+}
+
+std::shared_ptr<const void> Cache::load_whole(const FlatType& type, const std::string& hash) {
+  if (auto value = alive(type, hash)) return value;
+  const fs::path file = places_.value(type, hash);
+  std::error_code missing;
+  const std::uint64_t bytes = fs::file_size(file, missing);
+  if (missing) return nullptr;
+  bool incomplete = false;
+  const auto resolve = [&](const FlatType& shared, const std::string& shared_hash) {
+    auto value = load_whole(shared, shared_hash);
+    incomplete = incomplete || value == nullptr;
+    return value;
+  };
+  try {
+    auto value = read_blob(file, type, hash, resolve);
+    touch(file);
+    remember(type, hash, value);
+    const std::lock_guard lock(mutex_);
+    use_.loaded += bytes;
+    return value;
+  } catch (const std::exception& error) {  // also out of memory: perhaps because of what the file says
+    discard(file);                         // so that it is kept again, with all its parts
+    if (!incomplete) problem(fmt::format("{}: it is computed again", error.what()));
+    return nullptr;
+  }
+}
+
+bool Cache::works() const {
+  const std::lock_guard lock(mutex_);
+  return !broken_;
+}
+
+void Cache::problem(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  use_.problems.push_back("cache: " + text);
+}
+
+void Cache::give_up(const std::string& why) {
+  const std::lock_guard lock(mutex_);
+  if (!broken_) use_.problems.push_back(fmt::format("cache: {}; nothing more is kept in this run", why));
+  broken_ = true;
+}
+
+std::optional<std::string> Cache::keep_file(const fs::path& file) {
+  if (!works()) return std::nullopt;
+  try {
+    const MappedFile map(file);
+    ContentHash digest;
+    digest.bytes(map.data(), map.size());
+    std::string hash = digest.hex();
+    const fs::path target = places_.file(hash);
+    std::error_code missing;
+    if (fs::file_size(target, missing) == map.size() && !missing) {
+      touch(target);
+      return hash;
+    }
+    make_folder(target.parent_path());
+    write_bytes(target, map.data(), map.size());
+    added(map.size());
+    return hash;
+  } catch (const Error& error) {
+    give_up(error.what());
+    return std::nullopt;
+  }
+}
+
+void Cache::keep(const CacheRecord& record) {
+  if (!works()) return;
+  try {
+    const std::string text = record_text(record);
+    make_folder(places_.records(record.type()));
+    write_bytes(places_.record(record.type(), record.key), text.data(), text.size());
+    added(text.size());
+  } catch (const Error& error) {
+    give_up(error.what());
+  }
+}
+
+bool Cache::keep_value(const FlatType& type, std::shared_ptr<const void> data, const std::string& hash,
+                       std::uint64_t bytes, double cost) {
+  remember(type, hash, data);
+  const fs::path file = places_.value(type, hash);
+  std::error_code missing;
+  if (fs::exists(file, missing)) {
+    touch(file);
+    return true;
+  }
+  const std::lock_guard lock(mutex_);
+  const double writing = seconds_per_file + static_cast<double>(waiting_bytes_ + bytes) / rate_;
+  const bool too_much = bytes > options_.most_bytes / 2 || waiting_bytes_ + bytes > most_waiting;
+  if (broken_ || too_much || (!options_.keep_all && writing > cost)) return false;
+  waiting_bytes_ += bytes;
+  jobs_.push_back({&type, std::move(data), hash, bytes});
+  if (!writer_.joinable()) writer_ = std::thread([this] { work(); });
+  wake_.notify_one();
+  return true;
+}
+
+void Cache::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wake_.wait(lock, [this] { return ending_ || !jobs_.empty(); });
+    if (jobs_.empty()) return;
+    busy_ = true;
+    Job job = std::move(jobs_.front());
+    jobs_.pop_front();
+    const bool useful = !broken_;
+    lock.unlock();
+    const double start = wall_seconds();
+    if (useful) write(job);
+    const double took = wall_seconds() - start;
+    job.data.reset();
+    lock.lock();
+    if (useful && job.bytes >= measurable) rate_ = 0.5 * (rate_ + static_cast<double>(job.bytes) / (took + 1e-6));
+    waiting_bytes_ -= job.bytes;
+    busy_ = false;
+    idle_.notify_all();
+  }
+}
+
+/// The value, then what it shares with others. A value without its parts is found out when it is loaded.
+void Cache::write(const Job& job) {
+  try {
+    const fs::path file = places_.value(*job.type, job.hash);
+    std::error_code missing;
+    if (fs::exists(file, missing)) return;
+    make_folder(file.parent_path());
+    const auto parts = write_blob(file, *job.type, job.data.get(), job.hash);
+    const std::uint64_t bytes = fs::file_size(file, missing);
+    {
+      const std::lock_guard lock(mutex_);
+      use_.kept += bytes;
+    }
+    added(bytes);
+    for (const auto& part : parts) {
+      remember(*part.type, part.hash, part.data);
+      write({part.type, part.data, part.hash, 0});
+    }
+  } catch (const std::exception& error) {
+    give_up(error.what());
+  }
+}
+
+/// Removes what is too much, now and then.
+void Cache::added(std::uint64_t bytes) {
+  {
+    const std::lock_guard lock(mutex_);
+    new_bytes_ += bytes;
+    if (new_bytes_ < std::max<std::uint64_t>(options_.most_bytes / 16, 1)) return;
+    new_bytes_ = 0;
+  }
+  collect_garbage(places_, options_.most_bytes);
+}
+
+void Cache::finish() {
+  {
+    std::unique_lock lock(mutex_);
+    idle_.wait(lock, [this] { return jobs_.empty() && !busy_; });
+    if (new_bytes_ == 0) return;
+    // Looking at every file takes a while in a large cache: not after each small run.
+    const bool little = new_bytes_ < options_.most_bytes / 1000;
+    if (little && used_since(places_.folder / collected, std::chrono::hours(1))) return;
+    new_bytes_ = 0;
+  }
+  collect_garbage(places_, options_.most_bytes);
+}
+
+Cache::Use Cache::use() const {
+  const std::lock_guard lock(mutex_);
+  return use_;
+}
+
+}  // namespace atrium

@@ -1,0 +1,129 @@
+#include "graph/cache/record.hpp"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace atrium {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr int version = 1;
+
+std::string hash_of(std::string_view text) {
+  ContentHash hash;
+  hash.bytes(text.data(), text.size());
+  return hash.hex();
+}
+
+/// JSON has no numbers that are not finite.
+Json fact_json(const Fact& fact) {
+  Json json{{"name", fact.name}, {"unit", fact.unit}};
+  const auto* number = std::get_if<double>(&fact.value);
+  if (number != nullptr && !std::isfinite(*number))
+    json["number"] = std::isnan(*number) ? "nan" : *number > 0 ? "inf" : "-inf";
+  else
+    std::visit([&](const auto& value) { json["value"] = value; }, fact.value);
+  return json;
+}
+
+Fact read_fact(const Json& json) {
+  Fact fact{json.at("name").get<std::string>(), {}, json.at("unit").get<std::string>()};
+  if (const auto special = json.find("number"); special != json.end()) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    fact.value = *special == "nan" ? std::nan("") : *special == "inf" ? infinity : -infinity;
+    return fact;
+  }
+  const Json& value = json.at("value");
+  if (value.is_boolean())
+    fact.value = value.get<bool>();
+  else if (value.is_number_integer())
+    fact.value = value.get<std::int64_t>();
+  else if (value.is_number())
+    fact.value = value.get<double>();
+  else
+    fact.value = value.get<std::string>();
+  return fact;
+}
+
+Json outputs_json(const CacheRecord& record) {
+  Json outputs = Json::array();
+  for (const auto& output : record.outputs) {
+    Json facts = Json::array();
+    for (const auto& fact : output.facts) facts.push_back(fact_json(fact));
+    outputs.push_back({{"port", output.port},
+                       {"type", output.type},
+                       {"bytes", output.bytes},
+                       {"hash", output.hash},
+                       {"facts", std::move(facts)}});
+  }
+  return outputs;
+}
+
+CacheRecord from_json(const Json& json) {
+  CacheRecord record;
+  record.key = json.at("key").get<std::string>();
+  for (const auto& field : json.at("fields"))
+    record.fields.push_back({field.at(0).get<std::string>(), field.at(1).get<std::string>()});
+  record.node = json.at("node").get<std::string>();
+  record.made = json.at("made").get<std::string>();
+  for (const auto& json_output : json.at("outputs")) {
+    auto& output = record.outputs.emplace_back(CacheRecord::Output{json_output.at("port").get<std::string>(),
+                                                                   json_output.at("type").get<std::string>(),
+                                                                   json_output.at("bytes").get<std::uint64_t>(),
+                                                                   json_output.at("hash").get<std::string>(),
+                                                                   {}});
+    for (const auto& fact : json_output.at("facts")) output.facts.push_back(read_fact(fact));
+  }
+  record.warnings = json.at("warnings").get<std::vector<std::string>>();
+  for (const auto& file : json.at("files"))
+    record.files.push_back({file.at("path").get<std::string>(), file.at("bytes").get<std::uint64_t>(),
+                            file.at("hash").get<std::string>()});
+  record.wall = json.at("wall_seconds").get<double>();
+  record.cpu = json.at("cpu_seconds").get<double>();
+  record.peak_memory = json.at("peak_memory").get<std::uint64_t>();
+  record.growth = json.at("growth").get<std::uint64_t>();
+  return record;
+}
+
+}  // namespace
+
+std::string record_text(const CacheRecord& record) {
+  Json fields = Json::array();
+  for (const auto& field : record.fields) fields.push_back({field.name, field.value});
+  Json files = Json::array();
+  for (const auto& file : record.files)
+    files.push_back({{"path", file.path}, {"bytes", file.bytes}, {"hash", file.hash}});
+  const Json json{{"version", version},
+                  {"key", record.key},
+                  {"fields", std::move(fields)},
+                  {"node", record.node},
+                  {"made", record.made},
+                  {"outputs", outputs_json(record)},
+                  {"warnings", record.warnings},
+                  {"files", std::move(files)},
+                  {"wall_seconds", record.wall},
+                  {"cpu_seconds", record.cpu},
+                  {"peak_memory", record.peak_memory},
+                  {"growth", record.growth}};
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return hash_of(text) + "\n" + text;
+}
+
+std::optional<CacheRecord> read_record(const std::string& text) {
+  const std::size_t line = text.find('\n');
+  if (line == std::string::npos) return std::nullopt;
+  const std::string_view rest = std::string_view(text).substr(line + 1);
+  if (hash_of(rest) != std::string_view(text).substr(0, line)) return std::nullopt;
+  try {
+    const Json json = Json::parse(rest);
+    if (json.at("version") != version) return std::nullopt;
+    CacheRecord record = from_json(json);
+    if (NodeKey{record.fields}.hex() != record.key) return std::nullopt;
+    return record;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace atrium

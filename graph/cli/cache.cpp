@@ -1,0 +1,119 @@
+// atrium cache stat|gc|verify: what is kept of earlier runs.
+#include "graph/cache/cache.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "graph/cache/upkeep.hpp"
+#include "graph/cli/verbs.hpp"
+
+namespace atrium::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+struct Options {
+  CacheChoice cache;
+  bool json = false;
+};
+
+CachePlaces places_of(const CacheChoice& choice) {
+  const fs::path folder = choice.folder.empty() ? default_cache_folder() : fs::path(choice.folder);
+  if (folder.empty()) throw Error("there is no cache: ATRIUM_CACHE is 'off'", "name one: --cache DIR");
+  return {fs::absolute(folder).lexically_normal()};
+}
+
+int stat(const Options& options) {
+  const CachePlaces places = places_of(options.cache);
+  const CacheContents contents = contents_of(places);
+  const std::pair<const char*, CacheContents::Share> shares[] = {
+      {"records", contents.records}, {"values", contents.values}, {"files", contents.files}, {"all", contents.all()}};
+  if (options.json) {
+    Json json{{"folder", places.folder.string()}};
+    for (const auto& [name, share] : shares) json[name] = {{"files", share.files}, {"bytes", share.bytes}};
+    json["types"] = Json::object();
+    for (const auto& [type, records] : contents.of_type) json["types"][type] = records;
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    return ok;
+  }
+  fmt::print("{}\n", places.folder.string());
+  for (const auto& [name, share] : shares) fmt::print("{:8} {:>8}  {:>8}\n", name, share.files, size_text(share.bytes));
+  for (const auto& [type, records] : contents.of_type) fmt::print("  {:28} {:>6}\n", type, records);
+  return ok;
+}
+
+int gc(const Options& options) {
+  const CachePlaces places = places_of(options.cache);
+  const Removed removed = collect_garbage(places, read_size(options.cache.size));
+  if (options.json) {
+    fmt::print("{}\n", Json{{"folder", places.folder.string()},
+                            {"removed_files", removed.files},
+                            {"removed_bytes", removed.bytes},
+                            {"bytes", removed.left}}
+                           .dump(2));
+    return ok;
+  }
+  fmt::print("removed {} ({}); {} are left\n", counted(removed.files, "file"), size_text(removed.bytes),
+             size_text(removed.left));
+  return ok;
+}
+
+int verify(const Options& options) {
+  const CachePlaces places = places_of(options.cache);
+  std::uint64_t checked = 0;
+  const auto problems = verify_cache(places, checked);
+  if (options.json) {
+    const Json json{{"folder", places.folder.string()}, {"checked", checked}, {"removed", problems}};
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    for (const auto& problem : problems) fmt::print("removed: {}\n", problem);
+    fmt::print("{} checked, {} removed\n", counted(checked, "file"), problems.size());
+  }
+  return problems.empty() ? ok : failed;
+}
+
+}  // namespace
+
+void add_cache_options(CLI::App& verb, CacheChoice& choice) {
+  verb.add_option("--cache", choice.folder,
+                  "the folder of what earlier runs computed (default: ATRIUM_CACHE, or atrium in the user's cache)");
+  verb.add_flag("--no-cache", choice.off, "compute everything, keep nothing");
+  verb.add_option("--cache-size", choice.size, "what is not used for longest is removed above this size")
+      ->capture_default_str();
+}
+
+std::unique_ptr<Cache> open_cache(const CacheChoice& choice) {
+  const fs::path folder = choice.folder.empty() ? default_cache_folder() : fs::path(choice.folder);
+  if (choice.off || folder.empty()) return nullptr;
+  CacheOptions options;
+  options.folder = folder;
+  options.most_bytes = read_size(choice.size);
+  try {
+    return std::make_unique<Cache>(options);
+  } catch (const Error& error) {
+    fmt::print(stderr, "warning: without a cache: {}\n", error.what());
+    return nullptr;
+  }
+}
+
+void add_cache(CLI::App& app, int& exit_code) {
+  auto* verb = app.add_subcommand("cache", "What is kept of earlier runs: shows it, makes it smaller, checks it.");
+  verb->require_subcommand(1);
+  const auto options = std::make_shared<Options>();
+  const auto add = [&](const char* name, const char* text, int (*work)(const Options&)) {
+    auto* sub = verb->add_subcommand(name, text);
+    sub->add_option("--cache", options->cache.folder, "its folder (default: as for `atrium run`)");
+    sub->add_flag("--json", options->json, "results as JSON on stdout");
+    sub->callback([options, &exit_code, work] { exit_code = work(*options); });
+    return sub;
+  };
+  add("stat", "Shows how much there is of what.", stat);
+  add("gc", "Removes what has not been used for longest.", gc)
+      ->add_option("--cache-size", options->cache.size, "leaves at most so much")
+      ->capture_default_str();
+  add("verify", "Checks every file; removes those that are damaged.", verify);
+}
+
+}  // namespace atrium::cli

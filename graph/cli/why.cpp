@@ -1,0 +1,140 @@
+// atrium why RUN NODE: why a node was run, or where its result came from.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "graph/api/suggest.hpp"
+#include "graph/cache/nearest.hpp"
+#include "graph/cli/verbs.hpp"
+
+namespace atrium::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string run, node, folder;
+  bool json = false;
+};
+
+Json read_manifest(const fs::path& run) {
+  std::ifstream file(run / "manifest.json");
+  Json manifest = Json::parse(file, nullptr, false);
+  if (!manifest.is_object() || !manifest.contains("nodes"))
+    throw Error(run.string() + " is not the folder of a run that has ended", "it has no manifest.json with nodes");
+  return manifest;
+}
+
+const Json& node_of(const Json& manifest, const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& node : manifest.at("nodes")) {
+    if (node.at("node") == name) return node;
+    names.push_back(node.at("node").get<std::string>());
+  }
+  const std::string hint = did_you_mean(name, names);
+  throw Error(fmt::format("the run has no node '{}'", name), hint.empty() ? "its nodes: " + join_words(names) : hint);
+}
+
+/// "oriented.cloud": whose output has that hash.
+std::string source_of(const Json& manifest, const std::string& hash) {
+  for (const auto& node : manifest.at("nodes"))
+    for (const auto& output : node.value("outputs", Json::array()))
+      if (output.value("hash", "") == hash)
+        return node.at("node").get<std::string>() + "." + output.at("port").get<std::string>();
+  return {};
+}
+
+std::string shown(const std::string& value) { return value.empty() ? "(not there)" : value; }
+
+void print_difference(const Json& manifest, const KeyDifference& difference) {
+  if (difference.name.starts_with("in ")) {
+    const std::string source = source_of(manifest, difference.now);
+    fmt::print("  {}: another value{}\n", difference.name.substr(3),
+               source.empty() ? "" : fmt::format(" (from {}: ask about that node)", source));
+  } else if (difference.name == "build") {
+    fmt::print("  build: the plugin or Atrium itself was built anew\n");
+  } else {
+    fmt::print("  {}: {} → {}\n", difference.name, shown(difference.then), shown(difference.now));
+  }
+}
+
+Json to_json(const std::vector<KeyDifference>& differences) {
+  Json json = Json::array();
+  for (const auto& d : differences) json.push_back({{"field", d.name}, {"then", d.then}, {"now", d.now}});
+  return json;
+}
+
+int explain_miss(const Options& options, const CachePlaces& places, const Json& manifest, const Json& node) {
+  const std::string key = node.at("cache").value("key", "");
+  const std::string type = node.at("type");
+  const auto record = key.empty() ? std::nullopt : record_of(places, type, key);
+  std::optional<NearestRecord> nearest;
+  if (record) nearest = nearest_record(places, *record);
+  if (options.json) {
+    Json json{{"node", options.node}, {"result", "miss"}, {"why", node.at("cache").value("why", "")}};
+    if (!key.empty()) json["key"] = key;
+    if (nearest)
+      json["nearest"] = {{"key", nearest->record.key},
+                         {"node", nearest->record.node},
+                         {"made", nearest->record.made},
+                         {"differences", to_json(nearest->differences)}};
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    return ok;
+  }
+  fmt::print("{} was run: {}\n", options.node, node.at("cache").value("why", ""));
+  if (!record) {
+    if (!key.empty())
+      fmt::print("{}\n", node.value("status", "") == "ok" ? "its record is not in the cache any more"
+                                                          : "of a node that is not ok nothing is kept");
+  } else if (!nearest) {
+    fmt::print("the cache had nothing else of {}\n", type);
+  } else {
+    fmt::print("nearest in the cache: '{}' of {}, which differs in\n", nearest->record.node, nearest->record.made);
+    for (const auto& difference : nearest->differences) print_difference(manifest, difference);
+  }
+  return ok;
+}
+
+int why(const Options& options) {
+  const Json manifest = read_manifest(options.run);
+  const Json& node = node_of(manifest, options.node);
+  if (!node.contains("cache") || !manifest.contains("cache")) {
+    if (options.json)
+      fmt::print("{}\n", Json{{"node", options.node}, {"result", "off"}}.dump(2));
+    else
+      fmt::print("{} was run: there was no cache\n", options.node);
+    return ok;
+  }
+  const fs::path folder =
+      options.folder.empty() ? manifest.at("cache").at("folder").get<std::string>() : options.folder;
+  if (node.at("cache").at("result") == "miss") return explain_miss(options, {folder}, manifest, node);
+  if (options.json) {
+    Json json{{"node", options.node}};
+    json.update(node.at("cache"));
+    fmt::print("{}\n", json.dump(2));
+    return ok;
+  }
+  const std::string again = node.at("cache").value("why", "");
+  fmt::print("{} was known: computed {} in {} s{}\n", options.node, node.at("cache").value("made", ""),
+             node.at("cache").value("computing_wall_seconds", 0.0), again.empty() ? "" : "; " + again);
+  return ok;
+}
+
+}  // namespace
+
+void add_why(CLI::App& app, int& exit_code) {
+  auto* verb = app.add_subcommand("why", "Says why a node of a run was computed, or where its result came from.");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("RUN", options->run, "the folder of a run or of a sweep")->required();
+  verb->add_option("NODE", options->node, "the node's address (of a sweep: VARIANT/NODE)")->required();
+  verb->add_option("--cache", options->folder, "the cache's folder (default: the one of the run)");
+  verb->add_flag("--json", options->json, "as JSON on stdout");
+  verb->callback([options, &exit_code] { exit_code = why(*options); });
+}
+
+}  // namespace atrium::cli

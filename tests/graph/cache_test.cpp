@@ -1,0 +1,235 @@
+// The parts of the cache: keys, records, hashes of files, its size.
+#include "graph/cache/cache.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "graph/cache/blob.hpp"
+#include "graph/cache/nearest.hpp"
+#include "graph/cache/upkeep.hpp"
+#include "tests/graph/test_nodes.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace atrium {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TemporaryFolder;
+using test::write_text;
+
+class Keys : public testing::Test {
+ protected:
+  Keys() { test::add_test_nodes(registry); }
+  /// The keys of all nodes, as if each output had the hash "h".
+  std::map<std::string, std::string> keys(const std::string& yaml, const std::vector<Override>& set = {}) {
+    write_text(folder / "p.yaml", yaml);
+    const LoadResult loaded = load_pipeline(folder / "p.yaml", set, registry);
+    EXPECT_TRUE(loaded.errors.empty()) << (loaded.errors.empty() ? "" : to_string(loaded.errors.front()));
+    std::map<std::string, std::string> result;
+    for (const auto& node : loaded.pipeline.nodes) {
+      std::vector<std::vector<std::string>> inputs;
+      for (const auto& port : node.inputs) inputs.emplace_back(port.size(), "h");
+      result[node.path] = make_key(node, inputs, "build", files).hex();
+    }
+    return result;
+  }
+
+  TemporaryFolder folder;
+  Registry registry{std::vector<fs::path>{}};
+  FileHashes files;
+};
+
+RC_GTEST_FIXTURE_PROP(Keys, DoNotDependOnTheOrderOfAFilesEntries, ()) {
+  std::vector<std::string> nodes{
+      "  cloud: {type: test.make}\n",
+      "  planes: {in: {cloud: cloud.cloud}, type: test.find, params: {PARAMS}}\n",
+      "  write: {type: test.write, in: {planes: planes.planes}}\n",
+  };
+  std::vector<std::string> params{"distance: 2 cm", "angle: 5", "max_planes: 3", "method: hough", "box: [1, 2, 3]"};
+  const auto text = [](const std::vector<std::string>& lines, const std::vector<std::string>& settings) {
+    std::string list;
+    for (const auto& setting : settings) list += (list.empty() ? "" : ", ") + setting;
+    std::string yaml = "atrium: 1\nnodes:\n";
+    for (const auto& line : lines) yaml += line;
+    return yaml.replace(yaml.find("PARAMS"), 6, list);
+  };
+  const auto before = keys(text(nodes, params));
+  const auto seed = static_cast<unsigned>(*rc::gen::inRange(0, 1'000'000));
+  std::shuffle(nodes.begin(), nodes.end(), std::mt19937(seed));
+  std::shuffle(params.begin(), params.end(), std::mt19937(seed + 1));
+  RC_ASSERT(keys(text(nodes, params)) == before);
+}
+
+TEST_F(Keys, DependOnValuesAndNotOnHowTheyAreWritten) {
+  const auto with = [&](const std::string& params) {
+    return keys(
+               "atrium: 1\nnodes:\n  cloud: {type: test.make}\n  planes: {type: test.find, in: {cloud: cloud.cloud}, "
+               "params: {" +
+               params + "}}\noutputs: {p: planes.planes}\n")
+        .at("planes");
+  };
+  const std::string standard = with("");
+  EXPECT_EQ(with("distance: 0.5 m, angle: 20"), standard);
+  EXPECT_EQ(with("distance: 50 cm"), standard);
+  std::set<std::string> different{standard};
+  for (const char* params : {"distance: 0.5000001", "angle: 19", "max_planes: 71", "share: 0.2", "method: hough",
+                             "refit: false", "box: [1, 2, 4]"})
+    EXPECT_TRUE(different.insert(with(params)).second) << params;
+}
+
+TEST_F(Keys, DependOnTheContentsOfFilesAndOfFolders) {
+  const auto with = [&](const std::string& path) {
+    return keys("atrium: 1\nnodes: {cloud: {type: test.read, params: {path: " + path +
+                "}}}\noutputs: {c: cloud.cloud}\n")
+        .at("cloud");
+  };
+  fs::create_directories(folder / "a/in");
+  fs::create_directories(folder / "b/in");
+  write_text(folder / "a/in/scan.ply", "1");
+  write_text(folder / "b/in/scan.ply", "1");
+  EXPECT_EQ(with("a/in/scan.ply"), with("b/in/scan.ply"));
+  EXPECT_EQ(with("a/in"), with("b/in"));
+  const std::string before = with("a/in");
+  write_text(folder / "b/in/scan.ply", "2");
+  EXPECT_NE(with("a/in/scan.ply"), with("b/in/scan.ply"));
+  EXPECT_NE(with("a/in"), with("b/in"));
+  write_text(folder / "a/in/more.ply", "");
+  EXPECT_NE(with("a/in"), before);
+}
+
+TEST(NodeKeys, TellWhereOneFieldEnds) {
+  EXPECT_NE((NodeKey{{{"a", "1\nb=1:2"}}}).hex(), (NodeKey{{{"a", "1"}, {"b", "2"}}}).hex());
+  EXPECT_NE((NodeKey{{{"a", "12"}}}).hex(), (NodeKey{{{"a1", "2"}}}).hex());
+}
+
+CacheRecord some_record() {
+  CacheRecord record;
+  record.fields = {{"type", "test.find"}, {"version", "1"}, {"distance", "0.5 m"}};
+  record.key = NodeKey{record.fields}.hex();
+  record.node = "shell/planes";
+  record.made = "2024-02-03T04:05:06Z";
+  const double infinity = std::numeric_limits<double>::infinity();
+  record.outputs = {{"planes", "Planes", 12, std::string(32, 'a'), {}},
+                    {"report",
+                     "Metrics",
+                     7,
+                     std::string(32, 'b'),
+                     {{"a", 0.1, "m"},
+                      {"b", std::nan(""), ""},
+                      {"c", -infinity, "s"},
+                      {"d", std::int64_t{3}, ""},
+                      {"e", 3.0, ""},
+                      {"f", std::string("inf"), ""},
+                      {"g", true, ""}}}};
+  record.warnings = {"one", "two \"quoted\"\n"};
+  record.files = {{"a/b.ply", 5, std::string(32, 'c')}};
+  record.wall = 1.25;
+  record.growth = 12345;
+  return record;
+}
+
+TEST(CacheRecords, ComeBackAsTheyWere) {
+  const CacheRecord record = some_record();
+  const std::string text = record_text(record);
+  const auto back = read_record(text);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(record_text(*back), text);
+  const auto& facts = back->outputs.at(1).facts;
+  EXPECT_EQ(std::get<double>(facts.at(0).value), 0.1);
+  EXPECT_TRUE(std::isnan(std::get<double>(facts.at(1).value)));
+  EXPECT_EQ(std::get<double>(facts.at(2).value), -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(std::get<std::int64_t>(facts.at(3).value), 3);
+  EXPECT_EQ(std::get<double>(facts.at(4).value), 3.0);
+  EXPECT_EQ(std::get<std::string>(facts.at(5).value), "inf");
+  EXPECT_EQ(std::get<bool>(facts.at(6).value), true);
+}
+
+RC_GTEST_PROP(CacheRecords, AreNotBelievedWhenDamaged, ()) {
+  std::string text = record_text(some_record());
+  if (*rc::gen::arbitrary<bool>())
+    text[*rc::gen::inRange<std::size_t>(0, text.size())] ^= static_cast<char>(1U << *rc::gen::inRange(0U, 8U));
+  else
+    text.resize(*rc::gen::inRange<std::size_t>(0, text.size()));
+  RC_ASSERT(!read_record(text));
+}
+
+TEST(FileHashing, SeesAChangeThatKeepsSizeAndTime) {
+  const TemporaryFolder folder;
+  FileHashes hashes(folder.path());
+  const fs::path file = folder / "scan.ply";
+  write_text(file, "one");
+  // Made to look old: a young file is not remembered at all.
+  const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(24);
+  fs::last_write_time(file, long_ago);
+  const std::string before = hashes.of(file);
+  EXPECT_EQ(before, hash_of_file(file));
+  write_text(file, "two");
+  fs::last_write_time(file, long_ago);
+  EXPECT_NE(hashes.of(file), before);
+  EXPECT_NE(FileHashes(folder.path()).of(file), before);
+  EXPECT_THROW(hashes.of(folder / "nowhere"), Error);
+}
+
+TEST(CacheSizes, AreReadAndShown) {
+  EXPECT_EQ(read_size("20 GB"), 20'000'000'000U);
+  EXPECT_EQ(read_size("512MiB"), 512U << 20U);
+  EXPECT_EQ(read_size("1.5 kB"), 1500U);
+  EXPECT_EQ(read_size("7"), 7U);
+  for (const char* wrong : {"", "GB", "-1 GB", "20 gb", "1e30 GB", "nan", "2 GB more"})
+    EXPECT_THROW(read_size(wrong), Error) << wrong;
+  EXPECT_EQ(size_text(999), "999 B");
+  EXPECT_EQ(size_text(20'000'000'000U), "20 GB");
+  EXPECT_EQ(size_text(999'999), "1 MB");
+}
+
+TEST(CacheUpkeep, RemovesWhatWasNotUsedForLongest) {
+  const TemporaryFolder folder;
+  const CachePlaces places{folder.path()};
+  fs::create_directories(folder / "files/aa");
+  for (int i = 0; i < 10; ++i) {
+    const fs::path file = folder / ("files/aa/" + std::to_string(i));
+    write_text(file, std::string(4096, 'x'));
+    fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::minutes(100 - i));
+  }
+  touch(folder / "files/aa/0");
+  write_text(folder / "files/aa/.9.1-1.part", "of a process that runs");
+  write_text(folder / "files/aa/.9.999999999-1.part", "of one that is gone");
+  fs::last_write_time(folder / "files/aa/.9.999999999-1.part",
+                      fs::file_time_type::clock::now() - std::chrono::hours(1));
+  const Removed removed = collect_garbage(places, 4 * 4096 + 4096);
+  EXPECT_LE(removed.left, 5U * 4096);
+  std::set<std::string> left;
+  for (const auto& entry : fs::directory_iterator(folder / "files/aa")) left.insert(entry.path().filename());
+  EXPECT_EQ(left, (std::set<std::string>{".9.1-1.part", "0", "7", "8", "9"}));
+}
+
+TEST(CacheNearest, IsTheRecordWithTheFewestDifferences) {
+  const TemporaryFolder folder;
+  Cache cache({folder.path()});
+  CacheRecord record = some_record();
+  const auto keep = [&](std::string version, std::string distance, std::string made) {
+    record.fields[1].value = std::move(version);
+    record.fields[2].value = std::move(distance);
+    record.made = std::move(made);
+    record.key = NodeKey{record.fields}.hex();
+    cache.keep(record);
+  };
+  keep("1", "1 m", "2024-01-01T00:00:00Z");
+  keep("2", "2 m", "2024-01-02T00:00:00Z");
+  keep("1", "3 m", "2024-01-03T00:00:00Z");
+  keep("1", "5 m", "2025-01-03T00:00:00Z");
+  keep("1", "4 m", "2024-01-04T00:00:00Z");
+  const auto nearest = nearest_record(cache.places(), record);
+  ASSERT_TRUE(nearest);
+  EXPECT_EQ(nearest->record.made, "2024-01-03T00:00:00Z");
+  ASSERT_EQ(nearest->differences.size(), 1U);
+  EXPECT_EQ(nearest->differences[0].then, "3 m");
+  EXPECT_EQ(nearest->differences[0].now, "4 m");
+}
+
+}  // namespace
+}  // namespace atrium

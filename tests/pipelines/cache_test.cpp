@@ -1,0 +1,266 @@
+// The cache as users meet it: what is known is not computed again, and nothing that happens to it makes a result wrong.
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "graph/api/random.hpp"
+#include "tests/support/process.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace atrium::test {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+class CacheOfRuns : public testing::Test {
+ protected:
+  CacheOfRuns() {
+    write_text(folder / "p.yaml", R"(atrium: 1
+vars: {number: 1}
+nodes:
+  first: {type: trial.fault, params: {number: "${number}", points: 50000, work: 0.05 s}}
+  second: {type: trial.fault, in: {after: first.cloud}, params: {points: 80000, work: 0.05 s}}
+  third: {type: trial.fault, in: {after: second.cloud}, params: {points: 20000, work: 0.05 s}}
+  write: {type: trial.write, in: {value: third.sum}, params: {path: sub/value.txt}}
+  cloud: {type: io.write_cloud, in: {cloud: third.cloud}, params: {path: cloud.ply}}
+outputs: {sum: third.sum, points: second.cloud}
+)");
+  }
+  ProcessResult atrium(std::vector<std::string> arguments, ProcessOptions options = {}) {
+    arguments.insert(arguments.begin(), ATRIUM_PROGRAM);
+    options.folder = folder.path();
+    options.environment.push_back("ATRIUM_PLUGIN_PATH=" ATRIUM_TRIAL_PLUGIN);
+    options.environment.push_back("ATRIUM_CACHE=" + (folder / "cache").string());
+    return run_process(arguments, options);
+  }
+  json manifest(const std::string& run) { return json::parse(read_text(folder / run / "manifest.json")); }
+  /// "first:miss second:hit …"
+  std::string uses(const std::string& run) {
+    std::string text;
+    const json all = manifest(run);
+    for (const auto& node : all["nodes"]) {
+      std::string use = node.contains("cache") ? node["cache"]["result"].get<std::string>() : "off";
+      if (use == "hit" && node["cache"].contains("why")) use = "again";
+      text += (text.empty() ? "" : " ") + node["node"].get<std::string>() + ":" + use;
+    }
+    return text;
+  }
+  /// All that a run shows but times: hashes of outputs, printed numbers, warnings, files with their bytes.
+  std::string shown(const std::string& run) {
+    std::string text;
+    const json all = manifest(run);
+    for (const auto& node : all["nodes"]) {
+      text += node["node"].get<std::string>() + node["status"].get<std::string>() + node["outputs"].dump();
+      if (node.contains("warnings")) text += node["warnings"].dump();
+      if (!node.contains("artefacts")) continue;
+      for (const auto& file : node["artefacts"])
+        text += file.dump() + read_text(folder / run / file["path"].get<std::string>());
+    }
+    return text + all["outputs"].dump();
+  }
+  void expect_sound() {
+    const auto result = atrium({"cache", "verify"});
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(CacheOfRuns, ASecondRunComputesNothingAndShowsTheSame) {
+  const auto cold = atrium({"run", "p.yaml", "--out", "cold"});
+  ASSERT_EQ(cold.exit_code, 0) << cold.err;
+  EXPECT_EQ(uses("cold"), "first:miss second:miss third:miss write:miss cloud:miss");
+  const auto warm = atrium({"run", "p.yaml", "--out", "warm"});
+  ASSERT_EQ(warm.exit_code, 0) << warm.err;
+  EXPECT_EQ(uses("warm"), "first:hit second:hit third:hit write:hit cloud:hit");
+  EXPECT_EQ(shown("warm"), shown("cold"));
+  EXPECT_EQ(warm.out, cold.out);
+  EXPECT_NE(warm.err.find("warning: write: only one number\n"), std::string::npos) << warm.err;
+  EXPECT_NE(warm.err.find("5 nodes done (5 by the cache)"), std::string::npos) << warm.err;
+  EXPECT_EQ(manifest("warm")["cache"]["loaded_bytes"], 0);
+  const json third = manifest("warm")["nodes"][2]["cache"];
+  EXPECT_GE(third["computing_wall_seconds"], 0.05);
+  EXPECT_EQ(third["key"], manifest("cold")["nodes"][2]["cache"]["key"]);
+  expect_sound();
+}
+
+TEST_F(CacheOfRuns, IsSwitchedOff) {
+  atrium({"run", "p.yaml", "--out", "cold"});
+  atrium({"run", "p.yaml", "--out", "off", "--no-cache"});
+  EXPECT_EQ(uses("off"), "first:off second:off third:off write:off cloud:off");
+  EXPECT_EQ(shown("off"), shown("cold"));
+  atrium({"run", "p.yaml", "--out", "other", "--cache", "elsewhere"});
+  EXPECT_EQ(uses("other"), "first:miss second:miss third:miss write:miss cloud:miss");
+}
+
+TEST_F(CacheOfRuns, AChangeRunsWhatDependsOnItAndWhySaysSo) {
+  atrium({"run", "p.yaml", "--out", "cold"});
+  atrium({"run", "p.yaml", "--out", "changed", "-s", "second.number=4"});
+  EXPECT_EQ(uses("changed"), "first:hit second:miss third:miss write:miss cloud:miss");
+  const auto second = atrium({"why", "changed", "second"});
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_NE(second.out.find("  number: 1 → 4\n"), std::string::npos) << second.out;
+  const auto third = atrium({"why", "changed", "third"});
+  EXPECT_NE(third.out.find("  after: another value (from second.cloud: ask about that node)\n"), std::string::npos)
+      << third.out;
+  EXPECT_NE(atrium({"why", "changed", "first"}).out.find("first was known: computed 20"), std::string::npos);
+  const auto as_json = json::parse(atrium({"why", "changed", "second", "--json"}).out);
+  EXPECT_EQ(as_json["nearest"]["differences"], json::parse(R"([{"field": "number", "then": "1", "now": "4"}])"));
+  EXPECT_EQ(atrium({"why", "changed", "secnd"}).exit_code, 1);
+  EXPECT_EQ(atrium({"why", "nowhere", "second"}).exit_code, 1);
+}
+
+TEST_F(CacheOfRuns, AFileThatIsReadCountsByItsContents) {
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
+  write_text(folder / "scan.xyz", points);
+  write_text(folder / "r.yaml", R"(atrium: 1
+vars: {scan: scan.xyz}
+nodes:
+  scan: {type: io.read_scan, params: {path: "${scan}"}}
+outputs: {scan: scan.cloud}
+)");
+  ASSERT_EQ(atrium({"run", "r.yaml", "--out", "1"}).exit_code, 0);
+  fs::last_write_time(folder / "scan.xyz", fs::file_time_type::clock::now());
+  atrium({"run", "r.yaml", "--out", "2"});
+  EXPECT_EQ(uses("2"), "scan:hit");
+  fs::create_directories(folder / "elsewhere");
+  write_text(folder / "elsewhere/scan.xyz", points);
+  atrium({"run", "r.yaml", "--out", "3", "-s", "scan=elsewhere/scan.xyz"});
+  EXPECT_EQ(uses("3"), "scan:hit");
+  // The same size, and the time set back.
+  const auto time = fs::last_write_time(folder / "scan.xyz");
+  write_text(folder / "scan.xyz", "0 0 0\n2 0 0\n0 1 0\n");
+  fs::last_write_time(folder / "scan.xyz", time);
+  atrium({"run", "r.yaml", "--out", "4"});
+  EXPECT_EQ(uses("4"), "scan:miss");
+}
+
+TEST_F(CacheOfRuns, ARunThatIsKilledAtAnyMomentGoesOnToTheSameResult) {
+  ASSERT_EQ(atrium({"run", "p.yaml", "--out", "undisturbed", "--no-cache"}).exit_code, 0);
+  Random random(5);
+  for (int round = 0; round < 4; ++round) {
+    for (int i = 0; i < 3; ++i) {
+      ProcessOptions options;
+      const auto start = std::chrono::steady_clock::now();
+      const auto end = start + std::chrono::duration<double>(random.uniform(0.02, 0.4));
+      options.watch = [&](pid_t process, const std::string& /*err*/) {
+        if (std::chrono::steady_clock::now() > end) ::kill(process, SIGKILL);
+      };
+      atrium({"run", "p.yaml", "--out", "killed"}, options);
+    }
+    ASSERT_EQ(atrium({"run", "p.yaml", "--out", "killed"}).exit_code, 0);
+    EXPECT_EQ(shown("killed"), shown("undisturbed"));
+    expect_sound();
+    fs::remove_all(folder / "cache" / (round % 2 == 0 ? "records" : "values"));
+  }
+}
+
+TEST_F(CacheOfRuns, TwoProcessesShareOne) {
+  std::vector<std::thread> threads;
+  std::array<int, 3> codes{};
+  for (std::size_t i = 0; i < codes.size(); ++i)
+    threads.emplace_back([&, i] {
+      codes[i] = atrium({"run", "p.yaml", "--out", "run" + std::to_string(i)}).exit_code;
+    });
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(codes, (std::array<int, 3>{0, 0, 0}));
+  for (const char* run : {"run1", "run2"}) EXPECT_EQ(shown(run), shown("run0"));
+  expect_sound();
+}
+
+TEST_F(CacheOfRuns, AFullDiskCostsTheCacheNotTheRun) {
+  fs::create_directories(folder / "small");
+  if (::mount("none", (folder / "small").c_str(), "tmpfs", 0, "size=100k") != 0)
+    GTEST_SKIP() << "a small file system can be mounted by root only";
+  const auto result = atrium({"run", "p.yaml", "--out", "r", "--cache", "small"});
+  const auto again = atrium({"run", "p.yaml", "--out", "r", "--cache", "small"});
+  const std::string uncached = (atrium({"run", "p.yaml", "--out", "off", "--no-cache"}), shown("off"));
+  const std::string cached = shown("r");
+  ::umount((folder / "small").c_str());
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(again.exit_code, 0);
+  const std::size_t first = result.err.find("nothing more is kept in this run");
+  EXPECT_NE(first, std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("nothing more is kept in this run", first + 1), std::string::npos) << result.err;
+  EXPECT_EQ(cached, uncached);
+}
+
+TEST_F(CacheOfRuns, NodesThatMisbehaveLeaveACacheThatWorks) {
+  const auto with = [&](const std::string& mode) {
+    return std::vector<std::string>{"run", "p.yaml", "--out", mode, "--quiet", "-s", "third.mode=" + mode};
+  };
+  EXPECT_GE(atrium(with("abort")).exit_code, 128);
+  const auto hang = [&] {
+    ProcessOptions options;
+    options.watch = [sent = false](pid_t process, const std::string& err) mutable {
+      if (!sent && err.find("hanging") != std::string::npos) ::kill(process, SIGINT);
+      sent = sent || err.find("hanging") != std::string::npos;
+    };
+    return atrium({"run", "p.yaml", "--out", "hang", "-s", "third.mode=hang"}, options);
+  }();
+  EXPECT_EQ(hang.exit_code, 130) << hang.err;
+  EXPECT_EQ(uses("hang").find("second:miss"), std::string::npos) << uses("hang");
+  EXPECT_EQ(atrium(with("flood")).exit_code, 0);
+  EXPECT_EQ(atrium(with("nan")).exit_code, 0);
+  const auto cold = shown("nan");
+  const auto nan = atrium(with("nan"));
+  EXPECT_EQ(uses("nan"), "first:hit second:hit third:hit write:hit cloud:hit");
+  EXPECT_EQ(shown("nan"), cold);
+  EXPECT_NE(nan.out.find("nan"), std::string::npos) << nan.out;
+  expect_sound();
+}
+
+TEST_F(CacheOfRuns, ANodeThatIsNotDeterministicIsFoundOut) {
+  // Its value is not worth keeping, so it is made again when a later node needs it, and differs.
+  write_text(folder / "f.yaml", R"(atrium: 1
+nodes:
+  fickle: {type: trial.fault, params: {points: 10, mode: fickle}}
+  after: {type: trial.fault, in: {after: fickle.cloud}}
+outputs: {sum: after.sum}
+)");
+  ASSERT_EQ(atrium({"run", "f.yaml", "--out", "r"}).exit_code, 0);
+  const auto result = atrium({"run", "f.yaml", "--out", "r", "-s", "after.number=3"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("fickle: run again, it gave another 'cloud' than before"), std::string::npos) << result.err;
+}
+
+TEST_F(CacheOfRuns, IsKeptBelowItsSize) {
+  atrium({"run", "p.yaml", "--out", "r", "--cache-size", "1 MB"});
+  const auto stat = json::parse(atrium({"cache", "stat", "--json"}).out);
+  EXPECT_LE(stat["all"]["bytes"], 1'000'000);
+  atrium({"run", "p.yaml", "--out", "r", "-s", "number=7"});
+  EXPECT_GT(json::parse(atrium({"cache", "stat", "--json"}).out)["all"]["bytes"], 1'000'000);
+  const auto gc = json::parse(atrium({"cache", "gc", "--cache-size", "500 kB", "--json"}).out);
+  EXPECT_LE(gc["bytes"], 500'000);
+  EXPECT_GT(gc["removed_files"], 0);
+  ASSERT_EQ(atrium({"run", "p.yaml", "--out", "again", "-s", "number=7"}).exit_code, 0);
+  EXPECT_EQ(shown("again"), shown("r"));
+  EXPECT_EQ(atrium({"cache", "gc", "--cache-size", "many"}).exit_code, 1);
+}
+
+TEST_F(CacheOfRuns, AGrowingSweepRunsWhatIsNew) {
+  const auto sweep = [&](const std::string& values, const std::string& out) {
+    write_text(folder / "s.yaml", "atrium: 1\nsweep: p.yaml\ngrid: {third.number: [" + values + "]}\n");
+    const auto result = atrium({"sweep", "run", "s.yaml", "--out", out});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::size_t run = 0;
+    const json all = manifest(out);
+    for (const auto& node : all["nodes"]) run += node["cache"]["result"] == "miss" ? 1 : 0;
+    return run;
+  };
+  EXPECT_EQ(sweep("1, 2", "a"), 8U);
+  EXPECT_EQ(sweep("1, 2, 3", "b"), 3U);  // in another folder: nothing is there but the cache
+  EXPECT_EQ(sweep("3, 1, 2", "c"), 0U);
+  EXPECT_EQ(read_text(folder / "c/table.csv").size(), read_text(folder / "b/table.csv").size());
+  std::size_t files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "c"))
+    files += entry.path().filename() == "cloud.ply" || entry.path().filename() == "value.txt" ? 1 : 0;
+  EXPECT_EQ(files, 6U);
+}
+
+}  // namespace
+}  // namespace atrium::test
