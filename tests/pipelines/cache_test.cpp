@@ -262,5 +262,45 @@ TEST_F(CacheOfRuns, AGrowingSweepRunsWhatIsNew) {
   EXPECT_EQ(files, 6U);
 }
 
+TEST_F(CacheOfRuns, APlanSaysWhatIsKnownAndWhatTheRestCosts) {
+  const auto plan = [&](const std::string& values, const std::vector<std::string>& more = {}) {
+    write_text(folder / "s.yaml", "atrium: 1\nsweep: p.yaml\ngrid: {third.number: [" + values + "]}\n");
+    std::vector<std::string> arguments{"sweep", "plan", "s.yaml", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = atrium(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return json::parse(result.out);
+  };
+  const json before = plan("1, 2");
+  EXPECT_EQ(before["nodes_known"], 0);
+  EXPECT_EQ(before["nodes_to_run"], 8);
+  EXPECT_EQ(before["nodes_of_unknown_cost"], 8);
+  ASSERT_EQ(atrium({"sweep", "run", "s.yaml", "--out", "a"}).exit_code, 0);
+  const json after = plan("1, 2, 3");
+  EXPECT_EQ(after["nodes_known"], 8);
+  EXPECT_EQ(after["nodes_to_run"], 3);
+  EXPECT_EQ(after["nodes_of_unknown_cost"], 0);
+  EXPECT_EQ(after["variants"][0]["nodes_to_run"], 0);
+  EXPECT_EQ(after["variants"][2]["nodes_to_run"], 3);
+  EXPECT_GE(after["seconds"], 0.05);
+  EXPECT_EQ(plan("1, 2", {"--no-cache"})["nodes_to_run"], 8);
+  EXPECT_EQ(plan("1, 2", {"--out", "a"})["variants"][1]["done"], true);
+}
+
+TEST_F(CacheOfRuns, ASweepStaysWithinItsMemory) {
+  write_text(folder / "s.yaml", "atrium: 1\nsweep: p.yaml\ngrid: {first.number: [1, 2, 3, 4]}\n");
+  // Less than any two nodes need: they run one after the other, and all are run.
+  const auto result = atrium({"sweep", "run", "s.yaml", "--out", "a", "--mem", "1 kB", "-j", "4"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json trace = json::parse(read_text(folder / "a/trace.json"));
+  std::vector<std::pair<double, double>> spans;
+  for (const auto& event : trace["traceEvents"])
+    if (event["ph"] == "X" && event["cat"] == "trial.fault")
+      spans.emplace_back(event["ts"], event["ts"].get<double>() + event["dur"].get<double>());
+  ASSERT_EQ(spans.size(), 12U);
+  std::sort(spans.begin(), spans.end());
+  for (std::size_t i = 1; i < spans.size(); ++i) EXPECT_GE(spans[i].first + 1, spans[i - 1].second);
+}
+
 }  // namespace
 }  // namespace atrium::test

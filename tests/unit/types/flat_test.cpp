@@ -9,6 +9,7 @@
 #include <set>
 
 #include "graph/cache/blob.hpp"
+#include "graph/cache/cache.hpp"
 #include "graph/pipeline/registry.hpp"
 #include "modules/types/adjacency.hpp"
 #include "modules/types/building.hpp"
@@ -183,6 +184,40 @@ TEST(FlatForm, IsNotMadeOfWhatCannotComeBack) {
   };
   EXPECT_EQ(flat_type<Bare>(), nullptr);
   EXPECT_EQ(flat_type<OneWay>(), nullptr);
+}
+
+TEST(FlatForm, WhatSeveralValuesShareIsStoredOnceAndComesBackAsOne) {
+  const test::TemporaryFolder folder;
+  auto cloud = std::make_shared<Cloud>();
+  cloud->points.resize(20'000, Eigen::Vector3f::Ones());
+  PlanePrimitives planes;
+  planes.cloud = cloud;
+  planes.primitives.resize(3);
+  Structure structure;
+  structure.primitives = std::make_shared<const PlanePrimitives>(planes);
+  const std::string planes_hash = content_hash(planes);
+  const std::string structure_hash = content_hash(structure);
+  {
+    Cache cache({folder.path(), 1'000'000'000, true});
+    const auto keep = [&]<class T>(const T& value, const std::string& hash) {
+      cache.keep_value(*flat_type<T>(), std::make_shared<const T>(value), hash, byte_size(value), 1);
+    };
+    keep(planes, planes_hash);
+    keep(structure, structure_hash);
+    keep(*cloud, content_hash(*cloud));
+    cache.finish();
+    EXPECT_LT(cache.use().kept, 12U * 20'000 + 2000);
+  }
+  Cache cache({folder.path()});
+  const auto load = [&]<class T>(const T& /*type*/, const std::string& hash) {
+    return std::static_pointer_cast<const T>(cache.load(*flat_type<T>(), hash));
+  };
+  const auto loaded = load(structure, structure_hash);
+  ASSERT_NE(loaded, nullptr);
+  EXPECT_EQ(loaded->primitives, load(planes, planes_hash));
+  EXPECT_EQ(loaded->primitives->cloud, load(*cloud, content_hash(*cloud)));
+  EXPECT_EQ(load(*cloud, content_hash(planes)), nullptr);
+  EXPECT_TRUE(cache.use().problems.empty());
 }
 
 /// The types that have no entry above would not be tested.
