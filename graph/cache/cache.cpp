@@ -93,26 +93,23 @@ std::optional<CacheRecord> Cache::find(const std::string& type, const std::strin
 
 bool Cache::restore(const CacheRecord::File& file, const fs::path& target) {
   const fs::path source = places_.file(file.hash);
-  std::error_code missing;
-  if (!fs::exists(source, missing)) return false;
-  std::string damage;
+  std::optional<MappedFile> map;
   try {
-    const MappedFile map(source);
-    ContentHash hash;
-    hash.bytes(map.data(), map.size());
-    if (hash.hex() == file.hash) {
-      make_folder(target.parent_path());
-      write_bytes(target, map.data(), map.size());
-      touch(source);
-      return true;
-    }
-    damage = source.string() + " is damaged: the node that wrote it is run again";
-  } catch (const Error& error) {
-    damage = error.what();
+    map.emplace(source);
+  } catch (const Error&) {  // removed
+    return false;
   }
-  discard(source);
-  problem(damage);
-  return false;
+  ContentHash hash;
+  hash.bytes(map->data(), map->size());
+  if (hash.hex() != file.hash) {
+    discard(source);
+    problem(source.string() + " is damaged: the node that wrote it is run again");
+    return false;
+  }
+  make_folder(target.parent_path());
+  write_bytes(target, map->data(), map->size());
+  touch(source);
+  return true;
 }
 
 std::shared_ptr<const void> Cache::alive(const FlatType& type, const std::string& hash) const {

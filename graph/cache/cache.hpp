@@ -46,7 +46,7 @@ class Cache {
   NodeKey key_of(const PipelineNode& node, const std::vector<std::vector<std::string>>& inputs);
   /// The record of a key, or nothing.
   std::optional<CacheRecord> find(const std::string& type, const std::string& key);
-  /// Puts a copy of a kept file to `target`; false if it is not there any more.
+  /// Puts a copy of a kept file to `target`; false if it is not there any more. Throws Error if it cannot be written.
   bool restore(const CacheRecord::File& file, const std::filesystem::path& target);
   /// A value, or null. One that is alive in this process, or part of one, is not loaded a second time.
   std::shared_ptr<const void> load(const FlatType& type, const std::string& hash);

@@ -111,13 +111,8 @@ void Scheduler::execute(std::size_t n) {
   }
   if (!again) progress_.started(record.node);
   std::vector<Value> outputs;
-  if (result_.threads == 1) reset_peak_memory();
-  const bool watch_memory = cache_ != nullptr || options_.memory > 0;
-  const std::uint64_t before = watch_memory ? resident_memory() : 0;
-  bool ok = call(n, inputs, outputs);
-  inputs.clear();  // the last reference goes in settle
-  if (record.wall >= peak_reading_interval || result_.threads == 1) peak_memory_ = peak_memory();
-  record.peak_memory = peak_memory_;
+  std::uint64_t growth = 0;
+  bool ok = call_watched(n, std::move(inputs), outputs, growth);
   if (ok) {
     record.facts.clear();
     for (const auto& value : outputs)
@@ -129,7 +124,6 @@ void Scheduler::execute(std::size_t n) {
   }
   if (ok && !again) record.status = NodeStatus::ok;
   if (!ok) outputs.clear();
-  const std::uint64_t growth = record.peak_memory > before ? record.peak_memory - before : 0;
   // Before others start: whatever they do to the process, this is done.
   if (ok && cache_ != nullptr) keep(n, outputs, growth);
   if (again) {
@@ -141,11 +135,28 @@ void Scheduler::execute(std::size_t n) {
     if (ok && cache_ == nullptr) describe(n, outputs);
     if (ok) progress_.described(record);
   }
-  if (options_.memory == 0) return;
+  if (options_.memory > 0) give_memory_back(n, growth);
+}
+
+/// call(), with what happens to the process's memory.
+bool Scheduler::call_watched(std::size_t n, Inputs inputs, std::vector<Value>& outputs, std::uint64_t& growth) {
+  NodeRecord& record = result_.nodes[n];
+  if (result_.threads == 1) reset_peak_memory();
+  const bool watched = cache_ != nullptr || options_.memory > 0;
+  const std::uint64_t before = watched ? resident_memory() : 0;
+  const bool ok = call(n, inputs, outputs);
+  inputs.clear();  // the last reference goes in settle
+  if (record.wall >= peak_reading_interval || result_.threads == 1) peak_memory_ = peak_memory();
+  record.peak_memory = peak_memory_;
+  growth = record.peak_memory > before ? record.peak_memory - before : 0;
+  return ok;
+}
+
+void Scheduler::give_memory_back(std::size_t n, std::uint64_t growth) {
   std::size_t tasks = 0;
   {
     const std::lock_guard lock(mutex_);
-    admission_.done(n, record.type, growth);
+    admission_.done(n, result_.nodes[n].type, growth);
     tasks = retry_refused();
   }
   spawn_(tasks);

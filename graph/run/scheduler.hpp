@@ -58,6 +58,8 @@ class Scheduler {
 
   void step();
   void execute(std::size_t n);
+  bool call_watched(std::size_t n, Inputs inputs, std::vector<Value>& outputs, std::uint64_t& growth);
+  void give_memory_back(std::size_t n, std::uint64_t growth);
   bool call(std::size_t n, const Inputs& inputs, std::vector<Value>& outputs);
   void fail(std::size_t n, std::string message, std::string help);
   void describe(std::size_t n, const std::vector<Value>& outputs);

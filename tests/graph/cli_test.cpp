@@ -26,8 +26,8 @@ class CommandLine : public testing::Test {
   Result run(const std::string& arguments) { return run(arguments, plugins_of_tests); }
   Result run(const std::string& arguments, const std::string& plugins) {
     const auto err = folder.path() / "stderr";
-    const std::string command = "cd '" + folder.path().string() + "' && ATRIUM_CACHE=off ATRIUM_PLUGIN_PATH='" + plugins + "' '" +
-                                ATRIUM_PROGRAM + "' " + arguments + " 2>'" + err.string() + "'";
+    const std::string command = "cd '" + folder.path().string() + "' && ATRIUM_CACHE=off ATRIUM_PLUGIN_PATH='" +
+                                plugins + "' '" + ATRIUM_PROGRAM + "' " + arguments + " 2>'" + err.string() + "'";
     Result result;
     FILE* pipe = ::popen(command.c_str(), "r");
     char block[4096];

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 
+#include <array>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -155,7 +156,34 @@ TEST_F(CacheOfRuns, ARunThatIsKilledAtAnyMomentGoesOnToTheSameResult) {
     ASSERT_EQ(atrium({"run", "p.yaml", "--out", "killed"}).exit_code, 0);
     EXPECT_EQ(shown("killed"), shown("undisturbed"));
     expect_sound();
-    fs::remove_all(folder / "cache" / (round % 2 == 0 ? "records" : "values"));
+    fs::remove_all(folder / "cache" / std::array{"records", "values", "files"}[static_cast<std::size_t>(round) % 3]);
+  }
+}
+
+TEST_F(CacheOfRuns, ASweepThatIsKilledAtAnyMomentGoesOnToTheSameTable) {
+  write_text(folder / "s.yaml",
+             "atrium: 1\nsweep: p.yaml\ngrid: {first.number: [1, 2], third.number: [1, 2]}\n"
+             "metrics: {sum: sum}\n");
+  ASSERT_EQ(atrium({"sweep", "run", "s.yaml", "--out", "undisturbed", "--no-cache"}).exit_code, 0);
+  const std::string table = read_text(folder / "undisturbed/table.csv");
+  Random random(7);
+  for (int round = 0; round < 2; ++round) {
+    const std::string out = "killed" + std::to_string(round);
+    for (int i = 0; i < 4; ++i) {
+      const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(random.uniform(0.02, 0.5));
+      ProcessOptions options;
+      options.watch = [&](pid_t process, const std::string& /*err*/) {
+        if (std::chrono::steady_clock::now() > end) ::kill(process, SIGKILL);
+      };
+      atrium({"sweep", "run", "s.yaml", "--out", out}, options);
+    }
+    ASSERT_EQ(atrium({"sweep", "run", "s.yaml", "--out", out}).exit_code, 0);
+    EXPECT_EQ(read_text(folder / out / "table.csv"), table);
+    for (const auto& variant : fs::directory_iterator(folder / "undisturbed/variants"))
+      for (const char* file : {"cloud.ply", "sub/value.txt"})
+        EXPECT_EQ(read_text(folder / out / "variants" / variant.path().filename() / file),
+                  read_text(variant.path() / file));
+    expect_sound();
   }
 }
 
