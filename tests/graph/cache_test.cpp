@@ -106,6 +106,31 @@ TEST(NodeKeys, TellWhereOneFieldEnds) {
   EXPECT_NE((NodeKey{{{"a", "12"}}}).hex(), (NodeKey{{{"a1", "2"}}}).hex());
 }
 
+TEST(Builds, AreThoseOfThePluginAndOfWhatStandsBesideIt) {
+  const TemporaryFolder folder;
+  write_text(folder / "libatrium_trial.so", "one");
+  write_text(folder / "libatrium_other.so", "one");
+  NodeType type = describe_node<test::Make>();
+  type.library = folder / "libatrium_trial.so";
+  FileHashes files;
+  const auto build = [&] { return BuildIds(files).of(type); };
+  const std::string before = build();
+  BuildIds builds(files);
+  EXPECT_EQ(builds.of(type), before);
+  write_text(folder / "libatrium_other.so", "another plugin");
+  EXPECT_EQ(build(), before);
+  EXPECT_TRUE(builds.unchanged(type));
+  write_text(folder / "libatrium_trial-run.so", "its second library");
+  const std::string with_second = build();
+  EXPECT_NE(with_second, before);
+  write_text(folder / "libatrium_trial.so", "two");
+  EXPECT_NE(build(), with_second);
+  EXPECT_EQ(builds.of(type), before);  // what is loaded
+  EXPECT_FALSE(builds.unchanged(type));
+  type.library.clear();
+  EXPECT_NE(build(), before);
+}
+
 CacheRecord some_record() {
   CacheRecord record;
   record.fields = {{"type", "test.find"}, {"version", "1"}, {"distance", "0.5 m"}};
