@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "modules/baseline/density_plan.hpp"
-#include "modules/baseline/ear_clipping.hpp"
 #include "modules/baseline/storey_heights.hpp"
+#include "modules/geometry/ear_clipping.hpp"
 
 namespace atrium::baseline {
 namespace {

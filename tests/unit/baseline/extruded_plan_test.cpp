@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "graph/api/random.hpp"
-#include "modules/baseline/ear_clipping.hpp"
+#include "modules/geometry/ear_clipping.hpp"
 #include "modules/baseline/plan_image.hpp"
 #include "modules/baseline/ring_outline.hpp"
 #include "tests/unit/baseline/meshes.hpp"

@@ -1,11 +1,11 @@
-#include "modules/baseline/ear_clipping.hpp"
+#include "modules/geometry/ear_clipping.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <utility>
 
-namespace atrium::baseline {
+namespace atrium {
 namespace {
 
 using Eigen::Vector2d;
@@ -73,7 +73,8 @@ class Clipper {
   bool is_ear(const Ring& ring, std::size_t i) const {
     const std::size_t n = ring.size();
     const Vector2d &a = points_[ring[(i + n - 1) % n]], &b = points_[ring[i]], &c = points_[ring[(i + 1) % n]];
-    if (turn(a, b, c) <= 0) return false;
+    // Corners on a line within rounding are no ear: their triangle would have no area.
+    if (turn(a, b, c) <= 1e-12 * ((b - a).squaredNorm() + (c - b).squaredNorm())) return false;
     for (const auto k : ring) {
       const Vector2d& p = points_[k];
       if (p == a || p == b || p == c) continue;
@@ -112,4 +113,4 @@ std::vector<std::array<std::uint32_t, 3>> clip_ears(const PlanPolygon& polygon) 
   return Clipper(polygon).run();
 }
 
-}  // namespace atrium::baseline
+}  // namespace atrium

@@ -5,7 +5,7 @@
 
 #include "modules/types/floor_plan.hpp"
 
-namespace atrium::baseline {
+namespace atrium {
 
 /// Cuts a polygon into triangles between its own corners only (outline, then the holes, ring by ring): n + 2h - 2 of
 /// them, counter-clockwise, so that walls on its edges meet them edge to edge. Holes are joined to the outline by the
@@ -13,4 +13,4 @@ namespace atrium::baseline {
 /// outline counter-clockwise, holes clockwise; for others the result is some triangles between those corners.
 std::vector<std::array<std::uint32_t, 3>> clip_ears(const PlanPolygon& polygon);
 
-}  // namespace atrium::baseline
+}  // namespace atrium

@@ -1,0 +1,186 @@
+#include "modules/layout/faces.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "modules/layout/face_rings.hpp"
+#include "modules/layout/raster.hpp"
+#include "modules/layout/room_surface.hpp"
+
+namespace atrium::layout {
+namespace {
+
+class Assembly {
+ public:
+  Assembly(const CellComplex& cells, const Structure& structure, Context& context)
+      : cells_(cells),
+        planes_(*structure.primitives),
+        footprints_(footprints(planes_, cells.pixel, context)),
+        context_(context) {
+    building_.origin = cells.origin;
+  }
+
+  Building run() {
+    std::int32_t rooms = 0;
+    for (const auto& storey : cells_.storeys) {
+      building_.storeys.push_back({storey.floor_height, storey.ceiling_height - storey.floor_height});
+      for (const auto& cell : storey.cells) rooms = std::max(rooms, cell.room + 1);
+    }
+    building_.rooms.resize(static_cast<std::size_t>(rooms));
+    for (std::size_t s = 0; s < cells_.storeys.size(); ++s) add_storey(static_cast<std::int32_t>(s));
+    return std::move(building_);
+  }
+
+ private:
+  void add_storey(std::int32_t index) {
+    StoreyCells storey = cells_.storeys[static_cast<std::size_t>(index)];
+    split_crossing_steps(storey);
+    std::vector<std::int32_t> rooms;
+    for (const auto& cell : storey.cells)
+      if (cell.room >= 0) rooms.push_back(cell.room);
+    std::sort(rooms.begin(), rooms.end());
+    rooms.erase(std::unique(rooms.begin(), rooms.end()), rooms.end());
+    for (const auto room : rooms) add_room(storey, index, room);
+  }
+
+  void add_room(const StoreyCells& storey, std::int32_t index, std::int32_t room) {
+    const RoomSurface surface = room_surface(storey, room);
+    BuildingRoom& entry = building_.rooms[static_cast<std::size_t>(room)];
+    entry.name = fmt::format("room {}", room + 1);
+    entry.storey = index;
+    const auto base = static_cast<std::uint32_t>(building_.vertices.size());
+    building_.vertices.insert(building_.vertices.end(), surface.vertices.begin(), surface.vertices.end());
+    for (const auto& source : surface.faces) {
+      BuildingFace face;
+      face.surface = source.key.surface;
+      face.storey = index;
+      face.room = room;
+      face.outline = moved(source.outline, base);
+      for (const auto& hole : source.holes) face.holes.push_back(moved(hole, base));
+      set_plane(storey, source.key, face);
+      entry.faces.push_back(static_cast<std::int32_t>(building_.faces.size()));
+      building_.faces.push_back(std::move(face));
+    }
+    for (const auto& p : surface.outline) entry.outline.emplace_back(p.x(), p.y(), storey.floor_height);
+    for (const auto& hole : surface.holes) {
+      entry.holes.emplace_back();
+      for (const auto& p : hole) entry.holes.back().emplace_back(p.x(), p.y(), storey.floor_height);
+    }
+    measure_room(entry);
+  }
+
+  static Ring moved(Ring ring, std::uint32_t base) {
+    for (auto& v : ring) v += base;
+    return ring;
+  }
+
+  void set_plane(const StoreyCells& storey, const FaceKey& key, BuildingFace& face) {
+    std::vector<std::int32_t> candidates;
+    if (key.surface == SurfaceClass::wall) {
+      if (key.index < 0) return;
+      const CellLine& line = storey.lines[static_cast<std::size_t>(key.index)];
+      const double side = key.along_normal ? 1 : -1;
+      face.plane = {side * Eigen::Vector3d(line.normal.x(), line.normal.y(), 0), side * line.offset};
+      candidates = line.primitives;
+    } else {
+      const CellSurface& surface =
+          (key.surface == SurfaceClass::floor ? storey.floors : storey.ceilings)[static_cast<std::size_t>(key.index)];
+      face.plane = surface.plane;
+      if ((face.plane.normal.z() > 0) != (key.surface == SurfaceClass::floor))
+        face.plane = {-face.plane.normal, -face.plane.offset};
+      if (surface.primitive >= 0) candidates = {surface.primitive};
+    }
+    std::erase_if(candidates, [&](std::int32_t p) {
+      return planes_.primitives[static_cast<std::size_t>(p)].plane.normal.dot(face.plane.normal) <= 0;
+    });
+    observe(candidates, face);
+  }
+
+  /// Which of the primitives were seen on the face, and on how much of it.
+  void observe(const std::vector<std::int32_t>& candidates, BuildingFace& face) const {
+    const auto& v = building_.vertices;
+    const Eigen::Vector3d& n = face.plane.normal;
+    const bool upright = is_upright(face.plane);
+    const Eigen::Vector2d along = upright ? Eigen::Vector2d(-n.y(), n.x()).normalized() : Eigen::Vector2d::UnitX();
+    const auto flat = [&](const Eigen::Vector3d& p) {
+      return upright ? Eigen::Vector2d(along.dot(p.head<2>()), p.z()) : Eigen::Vector2d(p.head<2>());
+    };
+    Eigen::AlignedBox2d box;
+    std::vector<std::vector<Eigen::Vector2d>> rings;
+    const auto add = [&](const Ring& ring) {
+      rings.emplace_back();
+      for (const auto i : ring) rings.back().push_back(flat(v[i]));
+      for (const auto& p : rings.back()) box.extend(p);
+    };
+    add(face.outline);
+    for (const auto& hole : face.holes) add(hole);
+    const double pixel = std::min(cells_.pixel, std::sqrt(std::max(box.volume(), 1e-6)) / 4);
+    std::vector<std::size_t> seen(candidates.size(), 0);
+    std::size_t samples = 0, covered = 0;
+    for (double y = box.min().y() + pixel / 2; y < box.max().y(); y += pixel)
+      for (double x = box.min().x() + pixel / 2; x < box.max().x(); x += pixel) {
+        if (!inside(rings, {x, y})) continue;
+        ++samples;
+        bool any = false;
+        for (std::size_t c = 0; c < candidates.size(); ++c) {
+          const Footprint& f = footprints_[static_cast<std::size_t>(candidates[c])];
+          const double t = !upright || f.along.dot(along) > 0 ? x : -x;
+          if (!f.raster.at(Eigen::Vector2d(t, y))) continue;
+          ++seen[c];
+          any = true;
+        }
+        covered += any ? 1 : 0;
+      }
+    if (samples == 0 || covered == 0) return;
+    face.observed = static_cast<double>(covered) / static_cast<double>(samples);
+    const auto best = static_cast<std::size_t>(std::max_element(seen.begin(), seen.end()) - seen.begin());
+    face.primitive = candidates[best];
+    face.residual = planes_.primitives[static_cast<std::size_t>(face.primitive)].residual;
+  }
+
+  static bool inside(const std::vector<std::vector<Eigen::Vector2d>>& rings, const Eigen::Vector2d& p) {
+    bool result = false;
+    for (const auto& ring : rings)
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+        if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+        if (p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) result = !result;
+      }
+    return result;
+  }
+
+  void measure_room(BuildingRoom& room) const {
+    const auto& v = building_.vertices;
+    for (const auto f : room.faces) {
+      const BuildingFace& face = building_.faces[static_cast<std::size_t>(f)];
+      const Eigen::Vector3d& n = face.plane.normal;
+      double area = signed_area(face.outline, v, n);
+      for (const auto& hole : face.holes) area += signed_area(hole, v, n);
+      // The divergence theorem over faces that look inside.
+      room.volume -= area * n.dot(v[face.outline[0]]) / 3;
+      if (face.surface != SurfaceClass::floor) continue;
+      room.area += area;
+    }
+    if (room.area > 0) room.height = room.volume / room.area;
+  }
+
+  const CellComplex& cells_;
+  const PlanePrimitives& planes_;
+  std::vector<Footprint> footprints_;
+  Context& context_;
+  Building building_;
+};
+
+}  // namespace
+
+Faces::Out Faces::run(const In& in, const Params& /*params*/, Context& context) {
+  Out out{Assembly(*in.cells, *in.structure, context).run()};
+  context.info(fmt::format("{} rooms, {} faces, {} corners", out.building.rooms.size(), out.building.faces.size(),
+                           out.building.vertices.size()));
+  return out;
+}
+
+}  // namespace atrium::layout

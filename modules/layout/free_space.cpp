@@ -1,0 +1,95 @@
+#include "modules/layout/free_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace atrium::layout {
+namespace {
+
+constexpr double bucket_edge = 0.5;
+constexpr double outliers = 0.001;  // of the points on each side: they do not stretch the grid
+constexpr std::size_t most_voxels = std::size_t{1} << 33U;
+
+/// The box of the points but for the outermost.
+Eigen::AlignedBox3d inner_box(const Cloud& cloud) {
+  Eigen::AlignedBox3d box;
+  if (cloud.points.empty()) return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()};
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<float> values;
+    values.reserve(cloud.points.size());
+    for (const auto& p : cloud.points) values.push_back(p[axis]);
+    const auto skip = static_cast<std::ptrdiff_t>(outliers * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), values.begin() + skip, values.end());
+    box.min()[axis] = values[static_cast<std::size_t>(skip)];
+    std::nth_element(values.begin(), values.end() - 1 - skip, values.end());
+    box.max()[axis] = values[values.size() - 1 - static_cast<std::size_t>(skip)];
+  }
+  constexpr double margin = 1.0;
+  box.min().array() -= margin;
+  box.max().array() += margin;
+  return box;
+}
+
+}  // namespace
+
+FreeSpace::FreeSpace(const Cloud& cloud, double voxel) : cloud_(cloud), voxel_(voxel) {
+  const Eigen::AlignedBox3d box = inner_box(cloud);
+  low_ = box.min();
+  const auto cells = [&](double edge) -> Eigen::Array<std::int64_t, 3, 1> {
+    return (box.sizes() / edge).array().ceil().cast<std::int64_t>() + 1;
+  };
+  while (cells(voxel_).cast<double>().prod() > static_cast<double>(most_voxels)) voxel_ *= 2;
+  size_ = cells(voxel_);
+  buckets_ = cells(bucket_edge);
+  occupied_.assign(static_cast<std::size_t>(size_.prod()) / 64 + 1, 0);
+  begin_.assign(static_cast<std::size_t>(buckets_.prod()) + 1, 0);
+  std::vector<std::uint32_t> inside;
+  std::vector<std::size_t> place;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const Eigen::Vector3d p = cloud.points[i].cast<double>() - low_;
+    const Eigen::Array<std::int64_t, 3, 1> v = (p / voxel_).array().floor().cast<std::int64_t>();
+    if ((v < 0).any() || (v >= size_).any()) continue;
+    const auto index = static_cast<std::size_t>((v[2] * size_[1] + v[1]) * size_[0] + v[0]);
+    occupied_[index / 64] |= std::uint64_t{1} << (index % 64);
+    const Eigen::Array<std::int64_t, 3, 1> b = (p / bucket_edge).array().floor().cast<std::int64_t>();
+    inside.push_back(static_cast<std::uint32_t>(i));
+    place.push_back(bucket(b[0], b[1], b[2]));
+    ++begin_[place.back() + 1];
+  }
+  for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
+  std::vector<std::uint32_t> next = begin_;
+  order_.resize(inside.size());
+  for (std::size_t i = 0; i < inside.size(); ++i) order_[next[place[i]]++] = inside[i];
+}
+
+void FreeSpace::each_point_in(const Eigen::AlignedBox3d& box,
+                              const std::function<void(const Eigen::Vector3d&)>& visit) const {
+  const auto place = [&](const Eigen::Vector3d& p) -> Eigen::Array<std::int64_t, 3, 1> {
+    return ((p - low_) / bucket_edge).array().floor().cast<std::int64_t>().max(0).min(buckets_ - 1);
+  };
+  const auto first = place(box.min());
+  const auto last = place(box.max());
+  for (std::int64_t z = first[2]; z <= last[2]; ++z)
+    for (std::int64_t y = first[1]; y <= last[1]; ++y)
+      for (std::int64_t x = first[0]; x <= last[0]; ++x) {
+        const std::size_t b = bucket(x, y, z);
+        for (std::uint32_t i = begin_[b]; i < begin_[b + 1]; ++i) visit(cloud_.points[order_[i]].cast<double>());
+      }
+}
+
+bool FreeSpace::is_occupied(const Eigen::Vector3d& place) const {
+  const Eigen::Array<std::int64_t, 3, 1> v = ((place - low_) / voxel_).array().floor().cast<std::int64_t>();
+  if ((v < 0).any() || (v >= size_).any()) return false;
+  const auto index = static_cast<std::size_t>((v[2] * size_[1] + v[1]) * size_[0] + v[0]);
+  return ((occupied_[index / 64] >> (index % 64)) & 1U) != 0;
+}
+
+bool FreeSpace::is_free(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+  const Eigen::Vector3d way = to - from;
+  const int steps = static_cast<int>(std::ceil(way.norm() / (voxel_ / 2)));
+  for (int i = 1; i < steps; ++i)
+    if (is_occupied(from + way * (static_cast<double>(i) / steps))) return false;
+  return true;
+}
+
+}  // namespace atrium::layout

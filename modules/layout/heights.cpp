@@ -1,0 +1,171 @@
+#include "modules/layout/heights.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "modules/layout/min_cut.hpp"
+
+namespace atrium::layout {
+namespace {
+
+constexpr double none = 1e6;  // the cost of what must not be
+
+/// One labelling: the cells of all rooms of a storey by surfaces.
+class Labelling {
+ public:
+  Labelling(const StoreyCells& storey, const std::vector<CellSurface>& surfaces, const Heights::Params& params)
+      : storey_(storey), surfaces_(surfaces), params_(params) {
+    for (std::size_t i = 0; i < storey.cells.size(); ++i) {
+      element_.push_back(storey.cells[i].room < 0 ? -1 : static_cast<int>(cells_.size()));
+      if (storey.cells[i].room >= 0) cells_.push_back(i);
+    }
+    costs_.assign(cells_.size(), std::vector<double>(surfaces.size(), 0));
+  }
+
+  /// `covers`: of each cell. Cells where `forbidden(cell, surface)` pay so much that only want of choice forgives it.
+  template <class Covers, class Forbidden>
+  void set_costs(Covers covers, Forbidden forbidden) {
+    for (std::size_t e = 0; e < cells_.size(); ++e) {
+      const LayoutCell& cell = storey_.cells[cells_[e]];
+      double seen = 0;
+      for (const CellCover& cover : covers(cell)) seen += cover.share;
+      for (std::size_t s = 0; s < surfaces_.size(); ++s) costs_[e][s] = cell.area * seen;
+      for (const CellCover& cover : covers(cell))
+        costs_[e][static_cast<std::size_t>(cover.surface)] -= cell.area * cover.share;
+      for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+        // What nothing shows costs a little, so that inferred surfaces and far ones give way.
+        costs_[e][s] += surfaces_[s].primitive < 0 ? 0.01 * cell.area : 0;
+        if (forbidden(cell, s)) costs_[e][s] += none;
+      }
+    }
+  }
+
+  std::vector<std::int32_t> solve() {
+    labels_.assign(cells_.size(), 0);
+    for (std::size_t e = 0; e < cells_.size(); ++e)
+      labels_[e] = static_cast<std::size_t>(std::min_element(costs_[e].begin(), costs_[e].end()) - costs_[e].begin());
+    constexpr int rounds = 10;
+    for (int round = 0; round < rounds; ++round) {
+      bool changed = false;
+      for (std::size_t alpha = 0; alpha < surfaces_.size(); ++alpha) changed = expand(alpha) || changed;
+      if (!changed) break;
+    }
+    std::vector<std::int32_t> result(storey_.cells.size(), -1);
+    for (std::size_t e = 0; e < cells_.size(); ++e) result[cells_[e]] = static_cast<std::int32_t>(labels_[e]);
+    return result;
+  }
+
+ private:
+  /// Area of the step between two surfaces over an edge, and the border itself.
+  double step(const CellEdge& edge, std::size_t a, std::size_t b) const {
+    if (a == b) return 0;
+    const Eigen::Vector2d& p = storey_.vertices[edge.from];
+    const Eigen::Vector2d& q = storey_.vertices[edge.to];
+    const double at_p = surfaces_[a].height_at(p) - surfaces_[b].height_at(p);
+    const double at_q = surfaces_[a].height_at(q) - surfaces_[b].height_at(q);
+    const double mean = at_p * at_q >= 0 ? std::abs(at_p + at_q) / 2
+                                         : (at_p * at_p + at_q * at_q) / (2 * (std::abs(at_p) + std::abs(at_q)));
+    const bool seen = edge.line >= 0 && !storey_.lines[static_cast<std::size_t>(edge.line)].primitives.empty();
+    const double weight = params_.step_weight * (seen ? 0.5 : 1.0);
+    return (q - p).norm() * (weight * mean + params_.border_weight);
+  }
+
+  double energy() const {
+    double sum = 0;
+    for (std::size_t e = 0; e < cells_.size(); ++e) sum += costs_[e][labels_[e]];
+    for (const auto& edge : storey_.edges)
+      if (const auto [a, b] = elements(edge); a >= 0)
+        sum += step(edge, labels_[static_cast<std::size_t>(a)], labels_[static_cast<std::size_t>(b)]);
+    return sum;
+  }
+
+  /// Of an edge within a room; −1 of others.
+  std::pair<int, int> elements(const CellEdge& edge) const {
+    if (edge.left < 0 || edge.right < 0) return {-1, -1};
+    const auto l = static_cast<std::size_t>(edge.left);
+    const auto r = static_cast<std::size_t>(edge.right);
+    if (storey_.cells[l].room < 0 || storey_.cells[l].room != storey_.cells[r].room) return {-1, -1};
+    return {element_[l], element_[r]};
+  }
+
+  /// Lets cells change to alpha where that lowers the energy.
+  bool expand(std::size_t alpha) {
+    MinCut cut(cells_.size());
+    for (std::size_t e = 0; e < cells_.size(); ++e) cut.add(e, costs_[e][labels_[e]], costs_[e][alpha]);
+    for (const auto& edge : storey_.edges) {
+      const auto [i, k] = elements(edge);
+      if (i < 0) continue;
+      const auto a = static_cast<std::size_t>(i);
+      const auto b = static_cast<std::size_t>(k);
+      const double keep = step(edge, labels_[a], labels_[b]);
+      const double only_b = step(edge, labels_[a], alpha);
+      const double only_a = step(edge, alpha, labels_[b]);
+      // keep = E(0,0), only_b = E(0,1), only_a = E(1,0), E(1,1) = 0 (Kolmogorov and Zabih 2004, with the pair's cost
+      // not below 0 where heights break the triangle inequality).
+      cut.add(a, keep, 0);
+      cut.add(a, 0, only_a);
+      cut.add(b, 0, -only_a);
+      cut.add_pair(a, b, std::max(0.0, only_b + only_a - keep), 0);
+    }
+    const std::vector<std::size_t> before = labels_;
+    const double cost = energy();
+    const std::vector<bool> change = cut.solve();
+    for (std::size_t e = 0; e < cells_.size(); ++e)
+      if (change[e]) labels_[e] = alpha;
+    if (energy() < cost - 1e-9) return true;
+    labels_ = before;
+    return false;
+  }
+
+  const StoreyCells& storey_;
+  const std::vector<CellSurface>& surfaces_;
+  const Heights::Params& params_;
+  std::vector<std::size_t> cells_;  // element -> cell
+  std::vector<int> element_;        // cell -> element
+  std::vector<std::vector<double>> costs_;
+  std::vector<std::size_t> labels_;
+};
+
+/// The least height of a ceiling over a floor among a cell's corners.
+double clearance(const StoreyCells& storey, const LayoutCell& cell, const CellSurface& floor,
+                 const CellSurface& ceiling) {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const auto c : cell.corners) middle += storey.vertices[c];
+  middle /= static_cast<double>(cell.corners.size());
+  return ceiling.height_at(middle) - floor.height_at(middle);
+}
+
+void settle(StoreyCells& storey, const Heights::Params& params) {
+  Labelling floors(storey, storey.floors, params);
+  floors.set_costs(
+      [](const LayoutCell& cell) -> const auto& { return cell.floors; },
+      [](const LayoutCell&, std::size_t) { return false; });
+  const auto floor_of = floors.solve();
+  for (std::size_t i = 0; i < storey.cells.size(); ++i) storey.cells[i].floor = floor_of[i];
+  Labelling ceilings(storey, storey.ceilings, params);
+  ceilings.set_costs(
+      [](const LayoutCell& cell) -> const auto& { return cell.ceilings; },
+      [&](const LayoutCell& cell, std::size_t s) {
+        const auto& floor = storey.floors[static_cast<std::size_t>(cell.floor)];
+        const bool covers = std::any_of(cell.ceilings.begin(), cell.ceilings.end(), [&](const auto& c) {
+          return static_cast<std::size_t>(c.surface) == s && c.share > 0.5;
+        });
+        return !covers && clearance(storey, cell, floor, storey.ceilings[s]) < params.min_clearance;
+      });
+  const auto ceiling_of = ceilings.solve();
+  for (std::size_t i = 0; i < storey.cells.size(); ++i) storey.cells[i].ceiling = ceiling_of[i];
+}
+
+}  // namespace
+
+Heights::Out Heights::run(const In& in, const Params& params, Context& context) {
+  Out out{*in.cells};
+  for (auto& storey : out.cells.storeys) {
+    context.check_cancelled();
+    settle(storey, params);
+  }
+  return out;
+}
+
+}  // namespace atrium::layout

@@ -1,0 +1,39 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/cell_complex.hpp"
+
+namespace atrium::layout {
+
+/// Gives each cell of a room one floor and one ceiling: labellings of least energy, by α-expansion within each storey.
+///
+/// A cell pays for the area that the chosen surface does not cover, more where another one was seen instead. Where two
+/// neighbouring cells of a room have different surfaces, there is a step: its area costs `step_weight`, so that what
+/// was not seen takes the surface of its neighbours, and a surface ends where it meets the next. Ceilings less than
+/// min_clearance over the floor are none, where there is a choice.
+///
+/// Source: Y. Boykov, O. Veksler, R. Zabih, Fast approximate energy minimization via graph cuts, PAMI 23(11), 2001.
+struct Heights {
+  static constexpr std::string_view type = "layout.heights";
+  static constexpr std::string_view summary = "Gives each cell of a room its floor and its ceiling, by α-expansion.";
+  struct In {
+    Input<CellComplex> cells;
+  };
+  struct Out {
+    CellComplex cells;
+  };
+  struct Params {
+    double step_weight = 0.5;
+    double border_weight = 0.02;
+    double min_clearance = 0.5;
+  };
+  static constexpr auto inputs = std::tuple{port(&In::cells, "cells", "Cells with their rooms.")};
+  static constexpr auto outputs = std::tuple{port(&Out::cells, "cells", "The same, each with its floor and ceiling.")};
+  static constexpr auto params = std::tuple{
+      param(&Params::step_weight, "step_weight", unitless, within(0, 100), "Of a step's area against a cell's."),
+      param(&Params::border_weight, "border_weight", metres, within(0, 10),
+            "Of a border between two surfaces: the height of a step that costs as much."),
+      param(&Params::min_clearance, "min_clearance", metres, within(0, 10), "Least height of a room.")};
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::layout

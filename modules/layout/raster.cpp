@@ -1,0 +1,106 @@
+#include "modules/layout/raster.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numbers>
+
+namespace atrium::layout {
+namespace {
+
+std::vector<Eigen::Vector2d> flattened(const PlanePrimitive& primitive, const Cloud& cloud, Footprint& out) {
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(primitive.inliers.size());
+  const Eigen::Vector3d& n = primitive.plane.normal;
+  out.upright = is_upright(primitive.plane);
+  out.along = out.upright ? Eigen::Vector2d(-n.y(), n.x()).normalized() : Eigen::Vector2d::UnitX();
+  for (const auto i : primitive.inliers) {
+    const Eigen::Vector3d p = cloud.points[i].cast<double>();
+    points.emplace_back(out.upright ? Eigen::Vector2d(out.along.dot(p.head<2>()), p.z())
+                                    : Eigen::Vector2d(p.head<2>()));
+  }
+  return points;
+}
+
+}  // namespace
+
+double Raster::area() const { return static_cast<double>(std::count(bits.begin(), bits.end(), 1)) * pixel * pixel; }
+
+bool Raster::has_patch(double patch) const {
+  constexpr double full = 0.8;
+  const int side = std::max(1, static_cast<int>(std::lround(patch / pixel)));
+  if (side > width || side > height) return false;
+  const auto columns = static_cast<std::size_t>(width) + 1;
+  std::vector<int> sums(columns * (static_cast<std::size_t>(height) + 1), 0);  // of all squares below and to the left
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = (static_cast<std::size_t>(y) + 1) * columns + static_cast<std::size_t>(x) + 1;
+      sums[i] = (at(x, y) ? 1 : 0) + sums[i - 1] + sums[i - columns] - sums[i - columns - 1];
+    }
+  for (int y = side; y <= height; ++y)
+    for (int x = side; x <= width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x);
+      const auto back = static_cast<std::size_t>(side);
+      const int count = sums[i] - sums[i - back] - sums[i - back * columns] + sums[i - back * columns - back];
+      if (count >= full * side * side) return true;
+    }
+  return false;
+}
+
+Raster rasterize(const std::vector<Eigen::Vector2d>& points, double pixel) {
+  Raster raster;
+  raster.pixel = pixel;
+  if (points.empty()) return raster;
+  Eigen::AlignedBox2d box;
+  for (const auto& p : points) box.extend(p);
+  raster.low = (box.min() / pixel).array().floor() * pixel;
+  raster.width = raster.column(box.max().x()) + 1;
+  raster.height = raster.row(box.max().y()) + 1;
+  raster.bits.assign(static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height), 0);
+  for (const auto& p : points) {
+    const int x = std::clamp(raster.column(p.x()), 0, raster.width - 1);
+    const int y = std::clamp(raster.row(p.y()), 0, raster.height - 1);
+    raster.bits[static_cast<std::size_t>(y) * static_cast<std::size_t>(raster.width) + static_cast<std::size_t>(x)] = 1;
+  }
+  return raster;
+}
+
+Footprint footprint(const PlanePrimitive& primitive, const Cloud& cloud, double pixel) {
+  Footprint result;
+  result.raster = rasterize(flattened(primitive, cloud, result), pixel);
+  return result;
+}
+
+std::vector<Footprint> footprints(const PlanePrimitives& planes, double pixel, const Context& context) {
+  std::vector<Footprint> result(planes.primitives.size());
+  context.parallel_for(
+      result.size(),
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) result[i] = footprint(planes.primitives[i], *planes.cloud, pixel);
+      },
+      1);
+  return result;
+}
+
+double fitting_pixel(const PlanePrimitives& planes, double least, const Context& context) {
+  constexpr double full = 0.7;
+  constexpr int steps = 8;
+  double best = least;
+  double best_share = 0;
+  for (double pixel = least; pixel < least * std::pow(std::numbers::sqrt2, steps); pixel *= std::numbers::sqrt2) {
+    // A full surface has a quarter as many squares of twice the size; at its border it has more, ever more the larger
+    // they are.
+    double fine = 0;
+    double coarse = 0;
+    for (const auto& f : footprints(planes, pixel, context)) fine += f.raster.area();
+    for (const auto& f : footprints(planes, 2 * pixel, context)) coarse += f.raster.area();
+    const double share = coarse > 0 ? fine / coarse : 1;
+    if (share > best_share) {
+      best_share = share;
+      best = pixel;
+    }
+    if (share >= full || share < best_share) break;
+  }
+  return best;
+}
+
+}  // namespace atrium::layout

@@ -1,0 +1,58 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/cell_complex.hpp"
+
+namespace atrium::layout {
+
+/// Decides which cells are inside of a room: the labelling of least energy, by one minimum cut per storey.
+///
+/// All terms are in square metres of surface, so no weight depends on the number of points:
+/// - A cell under a ceiling that was seen should be inside, one over a floor as well (ceiling_weight and floor_weight
+///   times the covered area); where neither was seen it should be outside (outside_weight times that area). In a storey
+///   whose ceiling was not scanned, the floor and what stands on it count for the ceiling.
+/// - A wall was seen from inside: the cell before it should be inside, the one behind it outside (wall_weight times its
+///   area, if it reaches the ceiling), the latter less the more of floor or ceiling was seen there.
+/// - A border between inside and outside should be a wall that looks inside: its area that is none costs
+///   `smoothness`, and all of it `complexity`.
+///
+/// Rooms are what hangs together; a room of less than min_area, or with less than min_cover of its floor and ceiling
+/// seen, is outside. Rooms are numbered by falling area, through all storeys.
+///
+/// A scan without any room: a warning, all cells outside. Source: data terms after P. Labatut, J.-P. Pons, R. Keriven,
+/// Robust and efficient surface reconstruction from range data, CGF 28(8), 2009, and Oesau et al. 2014 (see
+/// layout.partition).
+struct Rooms {
+  static constexpr std::string_view type = "layout.rooms";
+  static constexpr std::string_view summary = "Decides which cells are inside of rooms, by a minimum cut.";
+  struct In {
+    Input<CellComplex> cells;
+  };
+  struct Out {
+    CellComplex cells;
+  };
+  struct Params {
+    double ceiling_weight = 2;
+    double floor_weight = 0.5;
+    double outside_weight = 0.3;
+    double wall_weight = 1;
+    double smoothness = 0.5;
+    double complexity = 0.02;
+    double min_area = 0.8;
+    double min_cover = 0.25;
+  };
+  static constexpr auto inputs = std::tuple{port(&In::cells, "cells", "Cells with their coverage.")};
+  static constexpr auto outputs = std::tuple{port(&Out::cells, "cells", "The same, each with its room or none.")};
+  static constexpr auto params = std::tuple{
+      param(&Params::ceiling_weight, "ceiling_weight", unitless, within(0, 100), "Of a ceiling over a cell."),
+      param(&Params::floor_weight, "floor_weight", unitless, within(0, 100), "Of a floor under a cell."),
+      param(&Params::outside_weight, "outside_weight", unitless, within(0, 100), "Of what shows neither."),
+      param(&Params::wall_weight, "wall_weight", unitless, within(0, 100), "Of a wall before or behind a cell."),
+      param(&Params::smoothness, "smoothness", unitless, within(0, 100), "Of borders where no wall was seen."),
+      param(&Params::complexity, "complexity", unitless, within(0, 100), "Of all borders."),
+      param(&Params::min_area, "min_area", square_metres, within(0, 1e6), "Smallest room."),
+      param(&Params::min_cover, "min_cover", ratio, within(0, 1),
+            "Least share of a room's floor and ceiling, together, that was seen.")};
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::layout

@@ -1,0 +1,32 @@
+#pragma once
+#include <utility>
+#include <vector>
+
+#include "modules/layout/arrangement.hpp"
+#include "modules/layout/raster.hpp"
+#include "modules/types/cell_complex.hpp"
+#include "modules/types/structure.hpp"
+
+namespace atrium::layout {
+
+/// A line of a storey and the walls on it.
+struct WallLine {
+  Arrangement::Line line;
+  double begin = 0, end = 0;  ///< where its evidence lies, along line.along()
+  double area = 0;            ///< of the walls' squares, square metres
+  std::vector<std::int32_t> primitives;
+};
+
+/// What one storey is made of: candidates, and where they were seen.
+struct StoreyPlanes {
+  double low = 0, high = 0;
+  double floor_height = 0, ceiling_height = 0;
+  std::vector<CellSurface> floors, ceilings;
+  std::vector<WallLine> lines;  ///< walls by falling area, then meeting lines of slanted surfaces
+};
+
+/// The storeys of a structure, lowest first. `footprints`: of its primitives.
+std::vector<StoreyPlanes> storey_planes(const Structure& structure, const std::vector<Footprint>& footprints,
+                                        double min_gap);
+
+}  // namespace atrium::layout

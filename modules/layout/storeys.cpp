@@ -1,0 +1,200 @@
+#include "modules/layout/storeys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "modules/layout/raster.hpp"
+
+namespace atrium::layout {
+namespace {
+
+struct Level {
+  std::size_t primitive = 0;
+  double height = 0;  ///< mean z of the points
+  double top = 0;     ///< greatest z
+  double area = 0;
+  bool up = false, slanted = false;
+};
+
+constexpr double main_share = 0.25;  // of the largest floor: as large as one
+constexpr double least_large = 2.0;  // m²: what may be a slab at all
+
+class Finder {
+ public:
+  Finder(const PlanePrimitives& planes, const Storeys::Params& params, Context& context)
+      : planes_(planes), params_(params), context_(context), pixel_(fitting_pixel(planes, params.pixel, context)) {
+    footprints_ = footprints(planes, pixel_, context);
+    for (std::size_t i = 0; i < planes.primitives.size(); ++i)
+      if (!footprints_[i].upright && !planes.primitives[i].inliers.empty()) levels_.push_back(level(i));
+    for (const auto& l : levels_)
+      if (!l.slanted) largest_ = std::max(largest_, l.area);
+  }
+
+  Structure run() {
+    if (largest_ == 0)
+      throw Error("no plane is level: there is neither floor nor ceiling",
+                  "z must point up (align.z_axis before this node)");
+    find_cuts();
+    Structure result;
+    result.classes.assign(planes_.primitives.size(), SurfaceClass::object);
+    result.storeys.assign(planes_.primitives.size(), -1);
+    result.storey_count = static_cast<std::int32_t>(cuts_.size()) + 1;
+    for (std::int32_t s = 0; s < result.storey_count; ++s) sort_levels(s, result);
+    for (std::size_t i = 0; i < planes_.primitives.size(); ++i) sort_wall(i, result);
+    return result;
+  }
+
+ private:
+  Level level(std::size_t i) const {
+    const PlanePrimitive& primitive = planes_.primitives[i];
+    Level result;
+    result.primitive = i;
+    result.top = -std::numeric_limits<double>::infinity();
+    for (const auto k : primitive.inliers) {
+      const double z = planes_.cloud->points[k].z();
+      result.height += z;
+      result.top = std::max(result.top, z);
+    }
+    result.height /= static_cast<double>(primitive.inliers.size());
+    result.area = footprints_[i].raster.area();
+    result.up = primitive.plane.normal.z() > 0;
+    result.slanted = !is_level(primitive.plane);
+    return result;
+  }
+
+  bool large(const Level& l) const { return !l.slanted && l.area >= least_large && l.area >= 0.05 * largest_; }
+
+  /// Square metres of b over a.
+  double overlap(const Level& a, const Level& b) const {
+    const Raster& low = footprints_[a.primitive].raster;
+    const Raster& high = footprints_[b.primitive].raster;
+    std::size_t both = 0;
+    for (int y = 0; y < low.height; ++y)
+      for (int x = 0; x < low.width; ++x)
+        if (low.at(x, y) && high.at(low.centre(x, y))) ++both;
+    return static_cast<double>(both) * pixel_ * pixel_;
+  }
+  bool room_below(const Level& ceiling) const {
+    return std::any_of(levels_.begin(), levels_.end(), [&](const Level& l) {
+      return l.up && large(l) && ceiling.height - l.height >= params_.min_clearance &&
+             overlap(l, ceiling) >= least_large / 2;
+    });
+  }
+  bool room_above(const Level& floor) const {
+    double top = floor.height;
+    for (const auto& l : levels_)
+      if (!l.up) top = std::max(top, l.top);
+    for (std::size_t i = 0; i < footprints_.size(); ++i)
+      if (footprints_[i].upright && !footprints_[i].raster.empty())
+        top = std::max(top, footprints_[i].raster.high().y());
+    return top - floor.height >= params_.min_clearance;
+  }
+
+  void find_cuts() {
+    struct Slab {
+      double low, high, area;
+    };
+    std::vector<Slab> slabs;
+    for (const auto& floor : levels_) {
+      if (!floor.up || !large(floor) || !room_above(floor)) continue;
+      for (const auto& below : levels_) {
+        if (!large(below) || below.height >= floor.height) continue;
+        const double gap = floor.height - below.height;
+        if (!below.up && gap <= params_.max_slab && room_below(below))
+          slabs.push_back({below.height, floor.height, std::min(floor.area, below.area)});
+        else if (below.up && gap >= params_.min_clearance && overlap(below, floor) >= 2 * least_large)
+          slabs.push_back({std::max(below.height + params_.min_clearance / 2, floor.height - params_.max_slab / 2),
+                           floor.height, overlap(below, floor) / 2});
+      }
+    }
+    std::stable_sort(slabs.begin(), slabs.end(), [](const auto& a, const auto& b) { return a.area > b.area; });
+    for (const auto& slab : slabs) {
+      const double cut = (slab.low + slab.high) / 2;
+      const bool known =
+          std::any_of(cuts_.begin(), cuts_.end(), [&](double c) { return std::abs(c - cut) < params_.min_clearance; });
+      if (!known) cuts_.push_back(cut);
+    }
+    std::sort(cuts_.begin(), cuts_.end());
+  }
+
+  std::int32_t storey_of(double z) const {
+    return static_cast<std::int32_t>(std::lower_bound(cuts_.begin(), cuts_.end(), z) - cuts_.begin());
+  }
+
+  void sort_levels(std::int32_t storey, Structure& result) const {
+    const Level* main_floor = nullptr;
+    const Level* main_ceiling = nullptr;
+    for (const auto& l : levels_) {
+      if (l.slanted || storey_of(l.height) != storey) continue;
+      const Level*& best = l.up ? main_floor : main_ceiling;
+      if (best == nullptr || l.area > best->area) best = &l;
+    }
+    if (main_floor != nullptr && main_floor->area < params_.min_area) main_floor = nullptr;
+    if (main_ceiling != nullptr && main_ceiling->area < params_.min_area) main_ceiling = nullptr;
+    if (main_floor == nullptr) context_.warn(fmt::format("storey {}: no floor was found", storey));
+    const double ground = main_floor != nullptr     ? main_floor->height
+                          : main_ceiling != nullptr ? main_ceiling->height - params_.min_clearance
+                          : storey > 0              ? cuts_[static_cast<std::size_t>(storey) - 1]
+                                                    : -1e9;
+    bool ceilings = false;
+    for (const auto& l : levels_) {
+      if (storey_of(l.height) != storey || l.area < params_.min_area ||
+          !footprints_[l.primitive].raster.has_patch(params_.min_width))
+        continue;
+      const bool is_floor = l.up && main_floor != nullptr &&
+                            (l.height <= ground + params_.max_step ||
+                             (main_ceiling != nullptr && l.area >= main_share * main_floor->area &&
+                              main_ceiling->height - l.height >= params_.min_clearance));
+      const bool is_ceiling = !l.up && (l.slanted ? l.top : l.height) >= ground + params_.min_clearance;
+      if (!is_floor && !is_ceiling) continue;
+      result.classes[l.primitive] = is_floor ? SurfaceClass::floor : SurfaceClass::ceiling;
+      result.storeys[l.primitive] = storey;
+      ceilings = ceilings || is_ceiling;
+    }
+    if (!ceilings) context_.warn(fmt::format("storey {}: no ceiling was found", storey));
+  }
+
+  void sort_wall(std::size_t i, Structure& result) const {
+    const Footprint& f = footprints_[i];
+    if (!f.upright || f.raster.empty() || f.raster.area() < params_.min_wall_area ||
+        f.raster.width * pixel_ < params_.min_wall_length)
+      return;
+    double best = -1;
+    for (std::int32_t s = 0; s < result.storey_count; ++s) {
+      const double low = s > 0 ? cuts_[static_cast<std::size_t>(s) - 1] : -1e9;
+      const double high = s + 1 < result.storey_count ? cuts_[static_cast<std::size_t>(s)] : 1e9;
+      const double overlap = std::min(high, f.raster.high().y()) - std::max(low, f.raster.low.y());
+      if (overlap <= best) continue;
+      best = overlap;
+      result.storeys[i] = s;
+    }
+    result.classes[i] = SurfaceClass::wall;
+  }
+
+  const PlanePrimitives& planes_;
+  const Storeys::Params& params_;
+  Context& context_;
+  double pixel_;
+  std::vector<Footprint> footprints_;
+  std::vector<Level> levels_;
+  double largest_ = 0;
+  std::vector<double> cuts_;
+};
+
+}  // namespace
+
+Storeys::Out Storeys::run(const In& in, const Params& params, Context& context) {
+  Out out{Finder(*in.planes, params, context).run()};
+  out.structure.primitives = in.planes;
+  const auto count = [&](SurfaceClass c) {
+    return std::count(out.structure.classes.begin(), out.structure.classes.end(), c);
+  };
+  context.info(fmt::format("{} storeys; candidates: {} floors, {} ceilings, {} walls", out.structure.storey_count,
+                           count(SurfaceClass::floor), count(SurfaceClass::ceiling), count(SurfaceClass::wall)));
+  return out;
+}
+
+}  // namespace atrium::layout
