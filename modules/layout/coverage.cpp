@@ -79,15 +79,21 @@ class Layers {
     const PlanePrimitives& planes = *structure.primitives;
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
       if (surfaces[s].primitive < 0) continue;
-      for (const auto i : planes.primitives[static_cast<std::size_t>(surfaces[s].primitive)].inliers) {
-        const Eigen::Vector2d p = planes.cloud->points[i].head<2>().cast<double>();
-        if (!holds(p)) continue;
-        std::int32_t& known = layer[index(column(p.x()), row(p.y()))];
-        if (known >= 0 &&
-            direction * (surfaces[s].height_at(p) - surfaces[static_cast<std::size_t>(known)].height_at(p)) <= 0)
-          continue;
-        known = static_cast<std::int32_t>(s);
-      }
+      paint_one(planes, surfaces[s].primitive, surfaces, s, direction, layer);
+      for (const auto joined : surfaces[s].joined) paint_one(planes, joined, surfaces, s, direction, layer);
+    }
+  }
+
+  void paint_one(const PlanePrimitives& planes, std::int32_t primitive, const std::vector<CellSurface>& surfaces,
+                 std::size_t s, int direction, std::vector<std::int32_t>& layer) const {
+    for (const auto i : planes.primitives[static_cast<std::size_t>(primitive)].inliers) {
+      const Eigen::Vector2d p = planes.cloud->points[i].head<2>().cast<double>();
+      if (!holds(p)) continue;
+      std::int32_t& known = layer[index(column(p.x()), row(p.y()))];
+      if (known >= 0 &&
+          direction * (surfaces[s].height_at(p) - surfaces[static_cast<std::size_t>(known)].height_at(p)) <= 0)
+        continue;
+      known = static_cast<std::int32_t>(s);
     }
   }
 

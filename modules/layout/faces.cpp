@@ -92,6 +92,7 @@ class Assembly {
       if ((face.plane.normal.z() > 0) != (key.surface == SurfaceClass::floor))
         face.plane = {-face.plane.normal, -face.plane.offset};
       if (surface.primitive >= 0) candidates = {surface.primitive};
+      candidates.insert(candidates.end(), surface.joined.begin(), surface.joined.end());
     }
     std::erase_if(candidates, [&](std::int32_t p) {
       return planes_.primitives[static_cast<std::size_t>(p)].plane.normal.dot(face.plane.normal) <= 0;

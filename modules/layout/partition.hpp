@@ -7,7 +7,8 @@ namespace atrium::layout {
 
 /// Cuts each storey into upright prisms along its walls, and measures what the scan says about each.
 ///
-/// - Lines: the walls of the storey, the largest first. A wall that runs within min_gap of a line is on that line.
+/// - Lines: the walls of the storey, the largest first. A wall that runs within min_gap of a line is on that line;
+///   floors and ceilings join in the same way.
 /// Where
 ///   two ceilings meet, or a ceiling meets the floor, and one of them is slanted, their meeting line is one too, as far
 ///   as both were seen beside it.

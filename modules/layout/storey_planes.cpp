@@ -29,6 +29,8 @@ class Storey {
       if (c == SurfaceClass::floor) planes_.floors.push_back(surface(i));
       if (c == SurfaceClass::ceiling) planes_.ceilings.push_back(surface(i));
     }
+    join_surfaces(planes_.floors, min_gap);
+    join_surfaces(planes_.ceilings, min_gap);
     settle_heights();
     join_lines(min_gap);
     add_meeting_lines(planes_.ceilings, planes_.ceilings);
@@ -39,7 +41,7 @@ class Storey {
  private:
   const Raster& raster(std::int32_t primitive) const { return footprints_[static_cast<std::size_t>(primitive)].raster; }
   CellSurface surface(std::size_t i) const {
-    return {structure_.primitives->primitives[i].plane, static_cast<std::int32_t>(i)};
+    return {structure_.primitives->primitives[i].plane, static_cast<std::int32_t>(i), {}};
   }
 
   void add_wall(std::size_t i) {
@@ -51,13 +53,18 @@ class Storey {
     if (top - bottom < least_height) return;
     WallLine wall;
     int first = f.raster.width, last = -1, squares = 0;
-    for (int y = std::max(0, f.raster.row(bottom)); y < std::min(f.raster.height, f.raster.row(top) + 1); ++y)
+    std::vector<std::pair<int, int>> rows;  // and how many of their squares hold points
+    for (int y = std::max(0, f.raster.row(bottom)); y < std::min(f.raster.height, f.raster.row(top) + 1); ++y) {
+      int count = 0;
       for (int x = 0; x < f.raster.width; ++x)
         if (f.raster.at(x, y)) {
           first = std::min(first, x);
           last = std::max(last, x);
-          ++squares;
+          ++count;
         }
+      squares += count;
+      if (count > 0) rows.emplace_back(count, y);
+    }
     if (last < first) return;
     const Plane& plane = structure_.primitives->primitives[i].plane;
     const double flat = plane.normal.head<2>().norm();
@@ -67,9 +74,21 @@ class Storey {
     wall.end = f.raster.low.x() + (last + 1) * f.raster.pixel;
     wall.area = squares * f.raster.pixel * f.raster.pixel;
     wall.primitives = {static_cast<std::int32_t>(i)};
-    tops_.emplace_back(top, wall.area);
-    bottoms_.emplace_back(bottom, wall.area);
+    const auto [foot, head] = ends_of(rows);
+    tops_.emplace_back(f.raster.low.y() + (head + 0.5) * f.raster.pixel, wall.area);
+    bottoms_.emplace_back(f.raster.low.y() + (foot + 0.5) * f.raster.pixel, wall.area);
     planes_.lines.push_back(std::move(wall));
+  }
+
+  /// The lowest and the highest row that are about as full as others: stray points do not make a wall higher.
+  static std::pair<int, int> ends_of(std::vector<std::pair<int, int>> rows) {
+    constexpr double full = 0.4;
+    std::vector<int> counts;
+    for (const auto& row : rows) counts.push_back(row.first);
+    std::nth_element(counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2), counts.end());
+    const double least = full * counts[counts.size() / 2];
+    std::erase_if(rows, [&](const auto& row) { return row.first < least; });
+    return {rows.front().second, rows.back().second};
   }
 
   /// The value below which a share of the weight lies.
@@ -102,8 +121,31 @@ class Storey {
     constexpr double most = 0.8;
     planes_.floor_height = planes_.floors.empty() ? quantile(bottoms_, 1 - most) : height(*largest(planes_.floors));
     planes_.ceiling_height = planes_.ceilings.empty() ? quantile(tops_, most) : height(*largest(planes_.ceilings));
-    if (planes_.floors.empty()) planes_.floors.push_back({{{0, 0, 1}, -planes_.floor_height}, -1});
-    if (planes_.ceilings.empty()) planes_.ceilings.push_back({{{0, 0, -1}, planes_.ceiling_height}, -1});
+    if (planes_.floors.empty()) planes_.floors.push_back({{{0, 0, 1}, -planes_.floor_height}, -1, {}});
+    if (planes_.ceilings.empty()) planes_.ceilings.push_back({{{0, 0, -1}, planes_.ceiling_height}, -1, {}});
+  }
+
+  /// Surfaces that nowhere differ from a larger one by more than the gap are that one.
+  void join_surfaces(std::vector<CellSurface>& surfaces, double min_gap) const {
+    std::stable_sort(surfaces.begin(), surfaces.end(), [&](const auto& a, const auto& b) {
+      return raster(a.primitive).area() > raster(b.primitive).area();
+    });
+    std::vector<CellSurface> kept;
+    for (auto& surface : surfaces) {
+      const Raster& r = raster(surface.primitive);
+      const auto same = std::find_if(kept.begin(), kept.end(), [&](const CellSurface& k) {
+        const auto near = [&](const Eigen::Vector2d& p) {
+          return std::abs(k.height_at(p) - surface.height_at(p)) <= min_gap;
+        };
+        const Eigen::Vector2d low = r.low, high = r.high();
+        return near(low) && near(high) && near({low.x(), high.y()}) && near({high.x(), low.y()});
+      });
+      if (same == kept.end())
+        kept.push_back(std::move(surface));
+      else
+        same->joined.push_back(surface.primitive);
+    }
+    surfaces = std::move(kept);
   }
 
   void join_lines(double min_gap) {
@@ -196,7 +238,7 @@ std::pair<double, double> largest_level(const Structure& structure, const std::v
     const Raster& r = footprints[i].raster;
     const Plane& plane = structure.primitives->primitives[i].plane;
     if (!is_level(plane) || r.area() <= best.second) continue;
-    best = {CellSurface{plane, 0}.height_at((r.low + r.high()) / 2), r.area()};
+    best = {CellSurface{plane, 0, {}}.height_at((r.low + r.high()) / 2), r.area()};
   }
   return best;
 }

@@ -19,7 +19,7 @@ struct Level {
   bool up = false, slanted = false;
 };
 
-constexpr double main_share = 0.25;  // of the largest floor: as large as one
+constexpr double main_share = 0.5;   // of the largest floor: as large as one
 constexpr double least_large = 2.0;  // m²: what may be a slab at all
 
 class Finder {

@@ -11,9 +11,12 @@ namespace atrium {
 
 /// A plane that may be a floor or a ceiling.
 struct CellSurface {
-  static constexpr auto members() { return std::tuple{&CellSurface::plane, &CellSurface::primitive}; }
-  Plane plane;                  ///< not vertical
-  std::int32_t primitive = -1;  ///< −1: inferred
+  static constexpr auto members() {
+    return std::tuple{&CellSurface::plane, &CellSurface::primitive, &CellSurface::joined};
+  }
+  Plane plane;                       ///< not vertical
+  std::int32_t primitive = -1;       ///< −1: inferred
+  std::vector<std::int32_t> joined;  ///< smaller primitives so near to it that they are taken for it
   double height_at(const Eigen::Vector2d& p) const {
     return -(plane.normal.x() * p.x() + plane.normal.y() * p.y() + plane.offset) / plane.normal.z();
   }
