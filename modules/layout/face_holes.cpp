@@ -43,6 +43,18 @@ class Mask {
     if (x >= 0 && y >= 0 && x < width_ && y < height_) at(x, y) = solid;
   }
 
+  /// Hidden squares that lie in no hidden block of this many squares a side (about) become solid.
+  void keep_wide(int side) {
+    const int reach = std::max(0, side / 2 - 1);
+    std::vector<std::uint8_t> kept(squares_.size(), 0);
+    for (int y = reach; y < height_ - reach; ++y)
+      for (int x = reach; x < width_ - reach; ++x)
+        if (at(x, y) == hidden && block(x, y, reach)) kept[index(x, y)] = 1;
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x)
+        if (at(x, y) == hidden && !near(kept, x, y, reach + 1)) at(x, y) = solid;
+  }
+
   /// Takes out one connected part of the hole squares; empty when there is none left.
   std::vector<Eigen::Vector2i> next_part() {
     std::vector<Eigen::Vector2i> part;
@@ -57,6 +69,24 @@ class Mask {
   }
 
  private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+  /// Whether nearly all of the block around a square is hidden.
+  bool block(int x, int y, int reach) const {
+    constexpr double most = 0.7;
+    int count = 0;
+    for (int v = y - reach; v <= y + reach; ++v)
+      for (int u = x - reach; u <= x + reach; ++u) count += squares_[index(u, v)] == hidden ? 1 : 0;
+    const int side = 2 * reach + 1;
+    return count >= most * side * side;
+  }
+  bool near(const std::vector<std::uint8_t>& kept, int x, int y, int reach) const {
+    for (int v = std::max(0, y - reach); v <= std::min(height_ - 1, y + reach); ++v)
+      for (int u = std::max(0, x - reach); u <= std::min(width_ - 1, x + reach); ++u)
+        if (kept[index(u, v)] != 0) return true;
+    return false;
+  }
   void grow(const Eigen::Vector2i& from, std::vector<Eigen::Vector2i>& part) {
     constexpr int ways[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
     for (const auto& way : ways) {
@@ -195,6 +225,9 @@ std::vector<FaceHole> HoleFinder::holes(std::size_t index) const {
     points.push_back(frame.to_plane(p));
     mask.touch(points.back());
   });
+  // What is too small for an opening need not be looked at.
+  mask.keep_wide(
+      static_cast<int>((wall ? std::min(params_.min_width, params_.min_height) : params_.min_slab_width) / pixel_));
   const double off = params_.tolerance + 2 * pixel_;
   for (int y = 0; y < mask.height(); ++y)
     for (int x = 0; x < mask.width(); ++x) {

@@ -85,10 +85,20 @@ bool FreeSpace::is_occupied(const Eigen::Vector3d& place) const {
 }
 
 bool FreeSpace::is_free(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
-  const Eigen::Vector3d way = to - from;
-  const int steps = static_cast<int>(std::ceil(way.norm() / (voxel_ / 2)));
-  for (int i = 1; i < steps; ++i)
-    if (is_occupied(from + way * (static_cast<double>(i) / steps))) return false;
+  // In voxels; a step is one voxel long, so that a way passes corners only.
+  const Eigen::Vector3d begin = (from - low_) / voxel_;
+  const Eigen::Vector3d way = (to - from) / voxel_;
+  const int steps = static_cast<int>(std::ceil(way.norm()));
+  const Eigen::Vector3d step = way / steps;
+  Eigen::Vector3d at = begin;
+  for (int i = 1; i < steps; ++i) {
+    at += step;
+    const auto x = static_cast<std::int64_t>(at.x()), y = static_cast<std::int64_t>(at.y()),
+               z = static_cast<std::int64_t>(at.z());
+    if (x < 0 || y < 0 || z < 0 || x >= size_[0] || y >= size_[1] || z >= size_[2]) continue;
+    const auto index = static_cast<std::size_t>((z * size_[1] + y) * size_[0] + x);
+    if (((occupied_[index / 64] >> (index % 64)) & 1U) != 0) return false;
+  }
   return true;
 }
 

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "graph/api/random.hpp"
-#include "modules/geometry/ear_clipping.hpp"
 #include "modules/baseline/plan_image.hpp"
 #include "modules/baseline/ring_outline.hpp"
+#include "modules/geometry/ear_clipping.hpp"
 #include "tests/unit/baseline/meshes.hpp"
 
 namespace atrium::baseline {
