@@ -1,6 +1,8 @@
 #include "modules/geometry/ear_clipping.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -19,7 +21,12 @@ class Clipper {
  public:
   explicit Clipper(const PlanPolygon& polygon) {
     add(polygon.outline);
-    for (const auto& hole : polygon.holes) add(hole);
+    for (const auto& hole : polygon.holes)
+      if (!hole.empty()) add(hole);
+    Eigen::AlignedBox2d box;
+    for (const auto& p : points_) box.extend(p);
+    constexpr double rounding = 1e-10;
+    flat_ = rounding * box.diagonal().norm();
   }
 
   std::vector<std::array<std::uint32_t, 3>> run() {
@@ -37,16 +44,42 @@ class Clipper {
     rings_.push_back(std::move(indices));
   }
 
-  // Whether the insides of a-b and of the rings' edges meet; edges that end in a or b do not count.
-  bool crosses(std::uint32_t a, std::uint32_t b) const {
-    for (const auto& ring : rings_)
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const Vector2d &c = points_[ring[i]], &d = points_[ring[(i + 1) % ring.size()]];
-        const Vector2d &p = points_[a], &q = points_[b];
-        if (c == p || c == q || d == p || d == q) continue;
+  const Vector2d& place(const Ring& ring, std::size_t i) const { return points_[ring[i % ring.size()]]; }
+
+  /// Whether the way from corner i of a ring to `to` begins inside of the polygon, as far as this corner tells.
+  bool leads_inside(const Ring& ring, std::size_t i, const Vector2d& to) const {
+    const Vector2d &before = place(ring, i + ring.size() - 1), &at = place(ring, i), &after = place(ring, i + 1);
+    const bool left_of_in = turn(before, at, to) > 0;
+    const bool left_of_out = turn(at, after, to) > 0;
+    return turn(before, at, after) > 0 ? left_of_in && left_of_out : left_of_in || left_of_out;
+  }
+
+  /// Whether the way from p to q, corners of the outline and of `hole`, meets any other corner or side.
+  bool is_blocked(const Vector2d& p, const Vector2d& q, std::size_t hole) const {
+    const double length = (q - p).norm();
+    for (std::size_t r = 0; r < rings_.size(); ++r)
+      for (std::size_t i = 0; i < rings_[r].size(); ++i) {
+        const Vector2d &c = place(rings_[r], i), &d = place(rings_[r], i + 1);
+        // Another hole that touches one of these corners.
+        if (r != 0 && r != hole &&
+            ((c == p && !leads_inside(rings_[r], i, q)) || (c == q && !leads_inside(rings_[r], i, p))))
+          return true;
+        if (c == p || c == q) continue;
+        const double along = (c - p).dot(q - p) / length;
+        if (along > 0 && along < length && std::abs(turn(p, q, c)) <= flat_ * length) return true;
+        if (d == p || d == q) continue;
         if (turn(p, q, c) * turn(p, q, d) <= 0 && turn(c, d, p) * turn(c, d, q) <= 0) return true;
       }
     return false;
+  }
+
+  bool is_bridge(std::size_t i, std::size_t hole, std::size_t k) const {
+    const Vector2d &p = place(rings_[0], i), &q = place(rings_[hole], k);
+    const Ring& ring = rings_[hole];
+    if (p == q)
+      return leads_inside(rings_[0], i, place(ring, k + 1)) &&
+             leads_inside(rings_[0], i, place(ring, k + ring.size() - 1));
+    return leads_inside(rings_[0], i, q) && leads_inside(ring, k, p) && !is_blocked(p, q, hole);
   }
 
   void join_nearest_hole() {
@@ -55,8 +88,8 @@ class Clipper {
     for (std::size_t h = 1; h < rings_.size(); ++h)
       for (std::size_t i = 0; i < rings_[0].size(); ++i)
         for (std::size_t k = 0; k < rings_[h].size(); ++k) {
-          const double length = (points_[rings_[0][i]] - points_[rings_[h][k]]).squaredNorm();
-          if (length >= least || crosses(rings_[0][i], rings_[h][k])) continue;
+          const double length = (place(rings_[0], i) - place(rings_[h], k)).squaredNorm();
+          if (length >= least || !is_bridge(i, h, k)) continue;
           least = length;
           best_hole = h;
           at_outline = i;
@@ -65,22 +98,27 @@ class Clipper {
     Ring hole = std::move(rings_[best_hole]);
     rings_.erase(rings_.begin() + static_cast<std::ptrdiff_t>(best_hole));
     std::rotate(hole.begin(), hole.begin() + static_cast<std::ptrdiff_t>(at_hole), hole.end());
-    hole.push_back(hole.front());
+    if (least == 0)
+      hole.erase(hole.begin());  // one corner for both: no bridge
+    else
+      hole.push_back(hole.front());
     hole.push_back(rings_[0][at_outline]);
     rings_[0].insert(rings_[0].begin() + static_cast<std::ptrdiff_t>(at_outline) + 1, hole.begin(), hole.end());
   }
 
+  /// Whether p is left of a → b, or within rounding of it.
+  bool is_beside(const Vector2d& a, const Vector2d& b, const Vector2d& p) const {
+    return turn(a, b, p) >= -flat_ * (b - a).norm();
+  }
+
   bool is_ear(const Ring& ring, std::size_t i) const {
-    const std::size_t n = ring.size();
-    const Vector2d &a = points_[ring[(i + n - 1) % n]], &b = points_[ring[i]], &c = points_[ring[(i + 1) % n]];
+    const Vector2d &a = place(ring, i + ring.size() - 1), &b = place(ring, i), &c = place(ring, i + 1);
     // Corners on a line within rounding are no ear: their triangle would have no area.
-    if (turn(a, b, c) <= 1e-12 * ((b - a).squaredNorm() + (c - b).squaredNorm())) return false;
-    for (const auto k : ring) {
+    if (turn(a, b, c) <= flat_ * std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()})) return false;
+    return std::none_of(ring.begin(), ring.end(), [&](std::uint32_t k) {
       const Vector2d& p = points_[k];
-      if (p == a || p == b || p == c) continue;
-      if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
-    }
-    return true;
+      return p != a && p != b && p != c && is_beside(a, b, p) && is_beside(b, c, p) && is_beside(c, a, p);
+    });
   }
 
   std::vector<std::array<std::uint32_t, 3>> ears(Ring ring) const {
@@ -90,7 +128,7 @@ class Clipper {
       const std::size_t n = ring.size();
       i %= n;
       // Where rounding leaves no ear, any corner does: nothing is left open.
-      if (!is_ear(ring, i) && passed < n) {
+      if (passed < n && !is_ear(ring, i)) {
         ++i;
         ++passed;
         continue;
@@ -104,6 +142,7 @@ class Clipper {
 
   std::vector<Vector2d> points_;
   std::vector<Ring> rings_;  // the outline first
+  double flat_ = 0;          // metres: corners this near to a line are on it
 };
 
 }  // namespace

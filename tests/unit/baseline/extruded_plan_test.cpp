@@ -83,42 +83,6 @@ double nearest_corner(const PlanRing& ring, const Vector2d& place) {
   return least;
 }
 
-TEST(EarClipping, CoversAPolygonWithHoles) {
-  const PlanPolygon polygon{
-      rectangle(0, 0, 10, 8),
-      {reversed(rectangle(1, 1, 3, 3)), reversed(rectangle(5, 1, 6, 7)), reversed(rectangle(1, 5, 2, 6))}};
-  std::vector<Vector2d> points = polygon.outline;
-  for (const auto& hole : polygon.holes) points.insert(points.end(), hole.begin(), hole.end());
-  const auto triangles = clip_ears(polygon);
-  EXPECT_EQ(triangles.size(), 16U + 2 * 3 - 2);
-  double total = 0;
-  for (const auto& t : triangles) {
-    const Vector2d b = points[t[1]] - points[t[0]], c = points[t[2]] - points[t[0]];
-    const double twice = b.x() * c.y() - b.y() * c.x();
-    EXPECT_GT(twice, 0);
-    total += twice / 2;
-  }
-  EXPECT_NEAR(total, polygon.area(), 1e-9);
-}
-
-TEST(EarClipping, CoversRandomStars) {
-  Random random(5);
-  for (int round = 0; round < 200; ++round) {
-    PlanPolygon star;
-    const auto corners = 3 + random.index(20);
-    for (std::uint64_t i = 0; i < corners; ++i) {
-      const double angle = 2 * 3.14159265 * static_cast<double>(i) / static_cast<double>(corners);
-      star.outline.emplace_back(random.uniform(0.2, 1) * Vector2d(std::cos(angle), std::sin(angle)));
-    }
-    double total = 0;
-    const auto triangles = clip_ears(star);
-    EXPECT_EQ(triangles.size(), corners - 2);
-    for (const auto& t : triangles)
-      total += PlanPolygon{{star.outline[t[0]], star.outline[t[1]], star.outline[t[2]]}, {}}.area();
-    EXPECT_NEAR(total, star.area(), 1e-9);
-  }
-}
-
 TEST(PlanImage, BordersRunAroundSquaresAndHoles) {
   PlanImage image(Vector2d(1, 2), 0.5, 6, 5);
   for (int y = 0; y < 5; ++y)

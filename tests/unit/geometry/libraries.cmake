@@ -1,1 +1,2 @@
-list(APPEND libraries TBB::tbb)
+find_package(rapidcheck REQUIRED)
+list(APPEND libraries TBB::tbb rapidcheck)
