@@ -66,6 +66,24 @@ void take_cells(const Arrangement& arrangement, StoreyCells& storey) {
   }
 }
 
+/// The sides of the box are lines too, for rooms that nothing ends before.
+void add_border(const Eigen::AlignedBox2d& box, StoreyCells& storey) {
+  const auto first = static_cast<std::int32_t>(storey.lines.size());
+  for (int side = 0; side < 4; ++side)
+    storey.lines.push_back({Eigen::Vector2d::Unit(side / 2), -(side % 2 == 0 ? box.min() : box.max())[side / 2], {}});
+  for (auto& edge : storey.edges) {
+    if (edge.line >= 0) continue;
+    const Eigen::Vector2d middle = (storey.vertices[edge.from] + storey.vertices[edge.to]) / 2;
+    const auto off = [&](std::int32_t line) {
+      const CellLine& l = storey.lines[static_cast<std::size_t>(line)];
+      return std::abs(l.normal.dot(middle) + l.offset);
+    };
+    edge.line = first;
+    for (std::int32_t line = first + 1; line < first + 4; ++line)
+      if (off(line) < off(edge.line)) edge.line = line;
+  }
+}
+
 StoreyCells cut_storey(const StoreyPlanes& planes, const std::vector<Footprint>& footprints,
                        const Partition::Params& params) {
   constexpr double tolerance = 1e-3;
@@ -79,7 +97,8 @@ StoreyCells cut_storey(const StoreyPlanes& planes, const std::vector<Footprint>&
   storey.ceilings = planes.ceilings;
   const Eigen::AlignedBox2d box = extent_of(planes, footprints);
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(params.margin);
-  Arrangement arrangement(box.min() - margin, box.max() + margin, tolerance);
+  const Eigen::AlignedBox2d wide(box.min() - margin, box.max() + margin);
+  Arrangement arrangement(wide.min(), wide.max(), tolerance);
   for (std::size_t i = 0; i < planes.lines.size(); ++i) {
     const WallLine& wall = planes.lines[i];
     storey.lines.push_back({wall.line.normal, wall.line.offset, wall.primitives});
@@ -87,6 +106,7 @@ StoreyCells cut_storey(const StoreyPlanes& planes, const std::vector<Footprint>&
     arrangement.cut(static_cast<std::int32_t>(i), wall.line, wall.begin - extension, wall.end + extension);
   }
   take_cells(arrangement, storey);
+  add_border(wide, storey);
   return storey;
 }
 

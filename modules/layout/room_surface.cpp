@@ -206,19 +206,31 @@ class Builder {
     }
   }
 
-  /// A corner is kept if in any face around it the way turns there.
+  /// A corner on a straight edge is none: it has the same two neighbours in all faces around it, and the way does not
+  /// turn there. Where more edges meet it stays, whatever their angles.
   void drop_straight_corners() {
-    std::vector<bool> kept(surface_.vertices.size(), false);
+    constexpr std::uint32_t unknown = 0xffffffffU;
+    struct Neighbours {
+      std::uint32_t a = unknown, b = unknown;
+      bool kept = false;
+    };
+    std::vector<Neighbours> corners(surface_.vertices.size());
     each_ring([&](const Ring& ring) {
       for (std::size_t i = 0; i < ring.size(); ++i) {
-        const Eigen::Vector3d& before = surface_.vertices[ring[(i + ring.size() - 1) % ring.size()]];
-        const Eigen::Vector3d& here = surface_.vertices[ring[i]];
-        const Eigen::Vector3d& next = surface_.vertices[ring[(i + 1) % ring.size()]];
-        if (off_chord(before, here, next) > straight) kept[ring[i]] = true;
+        const std::uint32_t before = ring[(i + ring.size() - 1) % ring.size()], next = ring[(i + 1) % ring.size()];
+        Neighbours& here = corners[ring[i]];
+        if (here.a == unknown) {
+          here = {before, next,
+                  off_chord(surface_.vertices[before], surface_.vertices[ring[i]], surface_.vertices[next]) > straight};
+        } else if (std::minmax(here.a, here.b) != std::minmax(before, next)) {
+          here.kept = true;
+        }
       }
     });
-    each_ring([&](Ring& ring) { std::erase_if(ring, [&](std::uint32_t v) { return !kept[v]; }); });
-    std::erase_if(surface_.faces, [](const RoomFace& face) { return face.outline.size() < 3; });
+    each_ring([&](Ring& ring) { std::erase_if(ring, [&](std::uint32_t v) { return !corners[v].kept; }); });
+    const auto gone = [](const Ring& ring) { return ring.size() < 3; };
+    for (auto& face : surface_.faces) std::erase_if(face.holes, gone);
+    std::erase_if(surface_.faces, [&](const RoomFace& face) { return gone(face.outline); });
   }
 
   void drop_unused_vertices() {

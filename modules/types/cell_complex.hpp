@@ -27,7 +27,7 @@ struct CellLine {
   static constexpr auto members() { return std::tuple{&CellLine::normal, &CellLine::offset, &CellLine::primitives}; }
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();
   double offset = 0;
-  std::vector<std::int32_t> primitives;  ///< walls on it; none: two slanted surfaces meet over it
+  std::vector<std::int32_t> primitives;  ///< walls on it; none: slanted surfaces meet over it, or the border
 };
 
 /// A side that two cells share, or one cell and the outside of the complex.
@@ -39,7 +39,7 @@ struct CellEdge {
   std::uint32_t from = 0, to = 0;  ///< vertices
   std::int32_t left = -1;          ///< the cell left of from → to
   std::int32_t right = -1;
-  std::int32_t line = -1;  ///< −1: border of the complex
+  std::int32_t line = -1;
   double wall_left = 0;    ///< share of its length on which a wall that looks to the left reaches the ceiling
   double wall_right = 0;   ///< the same for walls that look to the right
 };
