@@ -155,7 +155,7 @@ HoleFinder::HoleFinder(const Building& building, const Cloud& cloud, const Openi
 }
 
 HoleFinder::View HoleFinder::view_of(std::int32_t index) const {
-  constexpr double eye = 1.5, step = 0.7;
+  constexpr double eye = 1.5, least_step = 0.7, most_places = 50;
   const BuildingRoom& room = building_.rooms[static_cast<std::size_t>(index)];
   View view;
   if (room.outline.empty()) return view;
@@ -168,6 +168,7 @@ HoleFinder::View HoleFinder::view_of(std::int32_t index) const {
   if (!view.places.empty()) return view;
   Eigen::AlignedBox3d box;
   for (const auto& p : room.outline) box.extend(p);
+  const double step = std::max(least_step, std::sqrt(room.area / most_places));
   for (double y = box.min().y() + step / 2; y < box.max().y(); y += step)
     for (double x = box.min().x() + step / 2; x < box.max().x(); x += step) {
       const Eigen::Vector3d p(x, y, floor + std::min(eye, room.height / 2));

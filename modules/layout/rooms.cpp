@@ -106,8 +106,10 @@ std::vector<Room> connected(const StoreyCells& storey, std::size_t index, const 
   std::vector<std::size_t> rank(storey.cells.size()), parent(storey.cells.size());
   boost::disjoint_sets<std::size_t*, std::size_t*> sets(rank.data(), parent.data());
   for (std::size_t i = 0; i < storey.cells.size(); ++i) sets.make_set(i);
+  constexpr double mostly = 0.5;
   for (const auto& edge : storey.edges) {
     if (edge.left < 0 || edge.right < 0) continue;
+    if (edge.wall_left > mostly && edge.wall_right > mostly) continue;  // a thin wall: both of its faces on one line
     const auto a = static_cast<std::size_t>(edge.left);
     const auto b = static_cast<std::size_t>(edge.right);
     if (inside[a] && inside[b]) sets.union_set(a, b);

@@ -15,8 +15,9 @@ namespace atrium::layout {
 /// - A border between inside and outside should be a wall that looks inside: its area that is none costs
 ///   `smoothness`, and all of it `complexity`.
 ///
-/// Rooms are what hangs together; a room of less than min_area, or with less than min_cover of its floor and ceiling
-/// seen, is outside. Rooms are numbered by falling area, through all storeys.
+/// Rooms are what hangs together, but not through a wall so thin that its two faces share a line; a room of less than
+/// min_area, or with less than min_cover of its floor and ceiling seen, is outside. Rooms are numbered by falling area,
+/// through all storeys.
 ///
 /// A scan without any room: a warning, all cells outside. Source: data terms after P. Labatut, J.-P. Pons, R. Keriven,
 /// Robust and efficient surface reconstruction from range data, CGF 28(8), 2009, and Oesau et al. 2014 (see
