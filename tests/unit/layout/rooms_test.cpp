@@ -1,0 +1,173 @@
+#include "modules/layout/rooms.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include "tests/unit/layout/cells.hpp"
+#include "tests/unit/layout/chain.hpp"
+
+namespace atrium::layout {
+namespace {
+
+using namespace atrium::test;
+
+struct Decided {
+  CellComplex cells;
+  std::shared_ptr<Warnings> warnings = std::make_shared<Warnings>();
+};
+Decided decided(const std::vector<StoreyCells>& storeys, const Rooms::Params& params = {}) {
+  Decided result;
+  Context context(1, result.warnings);
+  CellComplex cells;
+  cells.storeys = storeys;
+  result.cells = Rooms::run({input(cells)}, params, context).cells;
+  return result;
+}
+
+/// Floor, ceiling and walls as a scan of the picture's rooms shows them, which the cells do not know yet.
+StoreyCells scanned(const std::vector<std::string>& picture, bool ceiling = true, bool floor = true) {
+  StoreyCells storey = grid_cells(picture);
+  for (auto& cell : storey.cells) {
+    const bool inside = cell.room >= 0;
+    cell.floor_cover = inside && floor ? 1 : 0;
+    cell.ceiling_cover = inside && ceiling ? 1 : 0;
+    cell.any_cover = inside ? 0.3 : 0;
+  }
+  for (auto& edge : storey.edges) {
+    if (edge.left < 0 || edge.right < 0) continue;
+    const auto left = storey.cells[static_cast<std::size_t>(edge.left)].room;
+    const auto right = storey.cells[static_cast<std::size_t>(edge.right)].room;
+    if (left == right) continue;
+    edge.wall_left = left >= 0 ? 1 : 0;
+    edge.wall_right = right >= 0 ? 1 : 0;
+  }
+  for (auto& cell : storey.cells) cell.room = -1;
+  return storey;
+}
+/// As a picture with rooms as letters.
+std::vector<std::string> picture_of(StoreyCells storey, int columns, int rows) {
+  std::vector<std::string> result;
+  for (int y = rows - 1; y >= 0; --y) {
+    std::string line;
+    for (int x = 0; x < columns; ++x) {
+      const int room = grid_cell(storey, x, y).room;
+      line += room < 0 ? '.' : static_cast<char>('a' + room);
+    }
+    result.push_back(line);
+  }
+  return result;
+}
+using Picture = std::vector<std::string>;
+
+TEST(Rooms, AreWhatWallsFloorsAndCeilingsEnclose) {
+  const Picture picture{"......", ".aaa..", ".aaa..", ".a....", "......"};
+  const auto result = decided({scanned(picture)});
+  EXPECT_EQ(picture_of(result.cells.storeys[0], 6, 5), picture);
+  EXPECT_TRUE(result.warnings->texts.empty());
+}
+
+TEST(Rooms, AreNumberedByFallingAreaThroughAllStoreys) {
+  const Picture low{".......", ".a.bbb.", ".a.bbb.", "......."}, high{".......", ".aaaaa.", ".......", "......."};
+  const auto result = decided({scanned(low), scanned(high)});
+  EXPECT_EQ(picture_of(result.cells.storeys[0], 7, 4), (Picture{".......", ".c.aaa.", ".c.aaa.", "......."}));
+  EXPECT_EQ(picture_of(result.cells.storeys[1], 7, 4), (Picture{".......", ".bbbbb.", ".......", "......."}));
+}
+
+TEST(Rooms, WithoutACeilingTheFloorAndWhatStandsOnItCount) {
+  const Picture picture{".....", ".aaa.", ".aaa.", "....."};
+  EXPECT_EQ(picture_of(decided({scanned(picture, false)}).cells.storeys[0], 5, 4), picture);
+}
+
+TEST(Rooms, WithoutAFloorTheCeilingIsEnough) {
+  const Picture picture{".....", ".aaa.", ".aaa.", "....."};
+  EXPECT_EQ(picture_of(decided({scanned(picture, true, false)}).cells.storeys[0], 5, 4), picture);
+}
+
+TEST(Rooms, AWallThatWasNotSeenDoesNotOpenThem) {
+  const Picture picture{".....", ".aaa.", ".aaa.", "....."};
+  StoreyCells storey = scanned(picture);
+  for (auto& edge : storey.edges)
+    if (storey.vertices[edge.from].y() == 3 && storey.vertices[edge.to].y() == 3) edge.wall_left = edge.wall_right = 0;
+  EXPECT_EQ(picture_of(decided({storey}).cells.storeys[0], 5, 4), picture);
+}
+
+TEST(Rooms, AThinWallPartsThem) {
+  const Picture picture{".....", ".abb.", ".abb.", "....."};
+  EXPECT_EQ(picture_of(decided({scanned(picture)}).cells.storeys[0], 5, 4),
+            (Picture{".....", ".baa.", ".baa.", "....."}));
+}
+
+TEST(Rooms, AHiddenPieceOfFloorAndCeilingStaysInside) {
+  const Picture picture{".....", ".aaa.", ".aaa.", ".aaa.", "....."};
+  StoreyCells storey = scanned(picture);
+  auto& hidden = grid_cell(storey, 2, 2);
+  hidden.floor_cover = hidden.ceiling_cover = hidden.any_cover = 0;
+  EXPECT_EQ(picture_of(decided({storey}).cells.storeys[0], 5, 5), picture);
+}
+
+TEST(Rooms, SmallOnesAndThoseThatNobodySawAreNone) {
+  const Picture picture{".....", ".a.bb", ".....", "....."};
+  const auto result = decided({scanned(picture)}, {.min_area = 1.5});
+  EXPECT_EQ(picture_of(result.cells.storeys[0], 5, 4)[1], "...aa");
+  // Walls all around nothing: inside, but not a room.
+  StoreyCells empty = scanned({".....", ".aaa.", ".aaa.", "....."}, false, false);
+  for (auto& cell : empty.cells) cell.any_cover = 0;
+  const auto unseen = decided({empty}, {.outside_weight = 0});
+  for (const auto& cell : unseen.cells.storeys[0].cells) EXPECT_EQ(cell.room, -1);
+  EXPECT_TRUE(unseen.warnings->mention("no room"));
+}
+
+TEST(Rooms, WithoutEvidenceAllIsOutside) {
+  const auto result = decided({grid_cells({"aa", "aa"})});
+  for (const auto& cell : result.cells.storeys[0].cells) EXPECT_EQ(cell.room, -1);
+  EXPECT_TRUE(result.warnings->mention("no room"));
+  EXPECT_TRUE(decided({}).warnings->mention("no room"));
+}
+
+// Any coverage: rooms hang together, are large enough, and numbers have no gaps.
+RC_GTEST_PROP(Rooms, AreAlwaysConnectedAndNumberedByArea, (std::uint32_t seed)) {
+  Random random(seed);
+  StoreyCells storey = grid_cells(6, 5);
+  for (auto& cell : storey.cells) {
+    cell.floor_cover = random.uniform();
+    cell.ceiling_cover = random.uniform();
+    cell.any_cover = random.uniform();
+  }
+  for (auto& edge : storey.edges) {
+    edge.wall_left = std::max(0.0, random.uniform(-1, 1));
+    edge.wall_right = std::max(0.0, random.uniform(-1, 1));
+  }
+  const auto decision = decided({storey}).cells.storeys[0];
+  std::map<std::int32_t, double> area;
+  std::map<std::int32_t, std::vector<std::size_t>> members;
+  for (std::size_t i = 0; i < decision.cells.size(); ++i) {
+    const auto room = decision.cells[i].room;
+    if (room < 0) continue;
+    area[room] += decision.cells[i].area;
+    members[room].push_back(i);
+  }
+  double last = 1e9;
+  std::int32_t expected = 0;
+  for (const auto& [room, size] : area) {
+    RC_ASSERT(room == expected++);
+    RC_ASSERT(size <= last + 1e-9);
+    RC_ASSERT(size >= 0.8);
+    last = size;
+    std::vector<std::size_t> reached{members[room][0]};
+    std::vector<bool> known(decision.cells.size(), false);
+    known[reached[0]] = true;
+    for (std::size_t k = 0; k < reached.size(); ++k)
+      for (const auto e : decision.cells[reached[k]].edges)
+        for (const auto next : {decision.edges[e].left, decision.edges[e].right})
+          if (next >= 0 && !known[static_cast<std::size_t>(next)] &&
+              decision.cells[static_cast<std::size_t>(next)].room == room) {
+            known[static_cast<std::size_t>(next)] = true;
+            reached.push_back(static_cast<std::size_t>(next));
+          }
+    RC_ASSERT(reached.size() == members[room].size());
+  }
+}
+
+}  // namespace
+}  // namespace atrium::layout
