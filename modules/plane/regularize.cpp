@@ -54,7 +54,7 @@ class Turning {
       const double first = heading(free.front());
       std::complex<double> sum = 0;
       for (const auto i : free)
-        if (fits(i, first)) sum += std::polar(area(i), 4 * std::remainder(heading(i) - first, quarter));
+        if (fits(i, first)) sum += std::polar(certainty(i), 4 * std::remainder(heading(i) - first, quarter));
       const double mean = first + std::arg(sum) / 4;
       const auto taken = [&](std::size_t i) { return i == free.front() || turn(i, nearest(i, mean)); };
       const std::size_t front = free.front();
@@ -98,6 +98,12 @@ class Turning {
   double area(std::size_t i) const {
     const auto& c = planes_[i].corners;
     return (c[1] - c[0]).norm() * (c[3] - c[0]).norm();
+  }
+  /// What the heading of a wall is known by: its points times their variance along it.
+  double certainty(std::size_t i) const {
+    const Moments& moments = planes_[i].moments;
+    const Eigen::Vector3d along = Eigen::Vector3d::UnitZ().cross(planes_[i].plane.normal);
+    return static_cast<double>(moments.count) * std::max(0.0, along.dot(moments.covariance() * along));
   }
   void sort_by_area(std::vector<std::size_t>& indices) const {
     std::stable_sort(indices.begin(), indices.end(), [&](auto a, auto b) { return area(a) > area(b); });
