@@ -11,7 +11,8 @@ namespace atrium::plane {
 ///
 /// 1. Nearly vertical planes become vertical, nearly horizontal ones horizontal (z is up).
 /// 2. Vertical planes: their directions modulo 90° are gathered into families, the widest surfaces first; each plane
-///    within reach takes the mean direction of its family (weighted by area).
+///    within reach takes the mean direction of its family, weighted by what its points tell of it (their number times
+///    their variance along the wall).
 /// 3. Other planes that are parallel (or the mirror image, as the two sides of a roof) within reach take the same tilt.
 ///
 /// No random numbers. Errors: none; without planes there is nothing to do. Source: after regularization in F. Lafarge,

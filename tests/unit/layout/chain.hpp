@@ -60,14 +60,31 @@ inline std::map<std::string, double> validity(const Mesh& mesh) {
   return result;
 }
 
+/// The surface of one room. (Rooms may touch: their shells together need not be manifold.)
+inline Mesh shell_of(const Layout& layout, std::size_t room) {
+  Mesh mesh = layout.meshes.shell;
+  mesh.triangles.clear();
+  for (std::size_t t = 0; t < layout.meshes.shell.triangles.size(); ++t) {
+    const auto face = static_cast<std::size_t>(layout.meshes.shell.primitives[t]);
+    if (layout.building.faces.at(face).room == static_cast<std::int32_t>(room))
+      mesh.triangles.push_back(layout.meshes.shell.triangles[t]);
+  }
+  mesh.classes.clear();
+  mesh.storeys.clear();
+  mesh.primitives.clear();
+  return mesh;
+}
+
 /// What is wrong with a building and its shell; "" if each room is closed and sound.
 inline std::string flaw(const Layout& layout) {
-  const auto v = validity(layout.meshes.shell);
-  for (const char* name : {"edges.boundary", "edges.misoriented", "duplicate_faces", "degenerate_faces",
-                           "self_intersections.deep", "self_intersections.overlapping"})
-    if (const double n = v.at(std::string("validity.") + name); n != 0)
-      return std::string(name) + ": " + std::to_string(n);
   const Building& b = layout.building;
+  for (std::size_t r = 0; r < b.rooms.size(); ++r) {
+    const auto v = validity(shell_of(layout, r));
+    for (const char* name : {"edges.boundary", "edges.misoriented", "duplicate_faces", "degenerate_faces",
+                             "self_intersections.deep", "self_intersections.overlapping"})
+      if (const double n = v.at(std::string("validity.") + name); n != 0)
+        return std::string(name) + ": " + std::to_string(n);
+  }
   for (std::size_t r = 0; r < b.rooms.size(); ++r) {
     const auto& room = b.rooms[r];
     if (room.faces.size() < 4) return "a room of " + std::to_string(room.faces.size()) + " faces";
