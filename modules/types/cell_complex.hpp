@@ -40,8 +40,8 @@ struct CellEdge {
   std::int32_t left = -1;          ///< the cell left of from → to
   std::int32_t right = -1;
   std::int32_t line = -1;
-  double wall_left = 0;    ///< share of its length on which a wall that looks to the left reaches the ceiling
-  double wall_right = 0;   ///< the same for walls that look to the right
+  double wall_left = 0;   ///< share of its length on which a wall that looks to the left reaches the ceiling
+  double wall_right = 0;  ///< the same for walls that look to the right
 };
 
 /// How much of a cell a surface covers.
