@@ -1,21 +1,10 @@
 #include "modules/io/read_layout.hpp"
 
-#include "modules/io/mapped_file.hpp"
+#include "modules/io/json_text.hpp"
 #include "modules/io/truth_json.hpp"
 
 namespace atrium::io {
 namespace {
-
-JsonField::Json parse(const MappedFile& file) {
-  if (file.size() == 0) throw Error(file.path() + ": the file is empty");
-  try {
-    return JsonField::Json::parse(file.text());
-  } catch (const JsonField::Json::exception& e) {
-    const std::string what = e.what();  // "[json.exception.parse_error.101] parse error at line 1, column 1: …"
-    const auto start = what.find("] ");
-    throw Error(file.path() + ": not valid JSON: " + (start == std::string::npos ? what : what.substr(start + 2)));
-  }
-}
 
 GroundTruth read(const JsonField& root, const std::string& path, const Context& context) {
   if (root.has("atrium_truth")) return truth_from_json(root);
@@ -29,8 +18,7 @@ GroundTruth read(const JsonField& root, const std::string& path, const Context& 
 
 ReadLayout::Out ReadLayout::run(const In& /*in*/, const Params& params, Context& context) {
   const std::string& path = params.path.path;
-  const MappedFile file(path);
-  const auto json = parse(file);
+  const auto json = parsed_json(path);
   Out out;
   out.truth = read({json, path + ":"}, path, context);
   if (out.truth.rooms.empty()) context.warn(path + ": there is no room in it");

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "modules/io/json_text.hpp"
+
 namespace atrium::io {
 namespace {
 
@@ -111,20 +113,7 @@ std::string truth_to_json(const GroundTruth& truth) {
   root["openings"] = Json::array();
   for (const auto& opening : truth.openings) root["openings"].push_back(opening_to_json(opening));
   root["mesh"] = mesh_to_json(truth.mesh);
-  // One room, face or list to a line: small, and a difference between two files can be read.
-  std::string text = "{";
-  for (const auto& [key, value] : root.items()) {
-    text += (text.size() > 1 ? ",\n" : "\n") + Json(key).dump() + ": ";
-    if (key != "rooms" && key != "faces" && key != "openings") {
-      text += value.dump(-1, ' ', false, Json::error_handler_t::replace);
-      continue;
-    }
-    text += "[";
-    for (std::size_t i = 0; i < value.size(); ++i)
-      text += (i > 0 ? ",\n " : "\n ") + value[i].dump(-1, ' ', false, Json::error_handler_t::replace);
-    text += "]";
-  }
-  return text + "\n}\n";
+  return json_text(root, {"rooms", "faces", "openings"});
 }
 
 GroundTruth truth_from_json(const JsonField& root) {

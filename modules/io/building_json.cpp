@@ -1,0 +1,273 @@
+#include "modules/io/building_json.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <limits>
+
+#include "modules/io/json_text.hpp"
+#include "modules/types/ground_truth.hpp"
+
+namespace atrium::io {
+namespace {
+
+using Json = JsonField::Json;
+using Ring = std::vector<std::uint32_t>;
+
+constexpr std::int32_t any = std::numeric_limits<std::int32_t>::max();
+
+Json json_of(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+Json json_of(const std::vector<Eigen::Vector3d>& ring) {
+  Json list = Json::array();
+  for (const auto& p : ring) list.push_back(json_of(p));
+  return list;
+}
+Json json_of(const std::vector<std::vector<Eigen::Vector3d>>& rings) {
+  Json list = Json::array();
+  for (const auto& ring : rings) list.push_back(json_of(ring));
+  return list;
+}
+
+/// Tells where a building holds what no file should.
+class Check {
+ public:
+  explicit Check(const Building& building) : building_(building) {}
+
+  void run(const Eigen::Vector3d& up) {
+    finite(building_.origin.allFinite() && up.allFinite(), "origin", 0);
+    for (std::size_t i = 0; i < building_.vertices.size(); ++i) finite(building_.vertices[i].allFinite(), "vertex", i);
+    for (std::size_t i = 0; i < building_.storeys.size(); ++i)
+      finite(std::isfinite(building_.storeys[i].elevation + building_.storeys[i].height), "storey", i);
+    for (std::size_t i = 0; i < building_.rooms.size(); ++i) room(building_.rooms[i], i);
+    for (std::size_t i = 0; i < building_.faces.size(); ++i) face(building_.faces[i], i);
+    for (std::size_t i = 0; i < building_.openings.size(); ++i) opening(building_.openings[i], i);
+    for (std::size_t i = 0; i < building_.walls.size(); ++i) wall(building_.walls[i], i);
+  }
+
+ private:
+  static void finite(bool is, const char* what, std::size_t index) {
+    if (!is) throw Error(fmt::format("{} {} of the building has a number that is not finite", what, index));
+  }
+  static void index(std::int64_t value, std::int64_t least, std::size_t count, const char* what, std::size_t i,
+                    const char* of) {
+    if (value < least || value >= static_cast<std::int64_t>(count))
+      throw Error(fmt::format("{} {} of the building names {} {} of {}", what, i, of, value, count),
+                  "they are counted from 0");
+  }
+  void corners(const Ring& ring, std::size_t i) const {
+    if (ring.size() < 3) throw Error(fmt::format("face {} of the building has fewer than three corners", i));
+    for (const auto v : ring) index(v, 0, building_.vertices.size(), "face", i, "vertex");
+  }
+  static void places(const std::vector<Eigen::Vector3d>& ring, const char* what, std::size_t i) {
+    for (const auto& p : ring) finite(p.allFinite(), what, i);
+  }
+
+  void room(const BuildingRoom& room, std::size_t i) const {
+    finite(std::isfinite(room.area + room.height + room.volume), "room", i);
+    places(room.outline, "room", i);
+    for (const auto& hole : room.holes) places(hole, "room", i);
+    index(room.storey, 0, building_.storeys.size(), "room", i, "storey");
+    for (const auto f : room.faces) index(f, 0, building_.faces.size(), "room", i, "face");
+  }
+  void face(const BuildingFace& face, std::size_t i) const {
+    finite(face.plane.normal.allFinite() && std::isfinite(face.plane.offset + face.observed + face.residual), "face",
+           i);
+    index(face.storey, 0, building_.storeys.size(), "face", i, "storey");
+    index(face.room, -1, building_.rooms.size(), "face", i, "room");
+    corners(face.outline, i);
+    for (const auto& hole : face.holes) corners(hole, i);
+  }
+  void opening(const BuildingOpening& opening, std::size_t i) const {
+    finite(std::isfinite(opening.thickness), "opening", i);
+    places(opening.outline_a, "opening", i);
+    places(opening.outline_b, "opening", i);
+    for (const auto r : {opening.room_a, opening.room_b}) index(r, -1, building_.rooms.size(), "opening", i, "room");
+    for (const auto f : {opening.face_a, opening.face_b}) index(f, -1, building_.faces.size(), "opening", i, "face");
+  }
+  void wall(const BuildingWall& wall, std::size_t i) const {
+    finite(std::isfinite(wall.thickness + wall.area), "wall", i);
+    for (const auto f : {wall.face_a, wall.face_b}) index(f, 0, building_.faces.size(), "wall", i, "face");
+  }
+
+  const Building& building_;
+};
+
+Json room_to_json(const BuildingRoom& room) {
+  Json json{{"name", room.name},
+            {"storey", room.storey},
+            {"area", room.area},
+            {"height", room.height},
+            {"volume", room.volume},
+            {"faces", room.faces},
+            {"outline", json_of(room.outline)}};
+  if (!room.holes.empty()) json["holes"] = json_of(room.holes);
+  return json;
+}
+
+double area_of(const Building& building, const BuildingFace& face) {
+  const auto places = [&](const Ring& ring) {
+    std::vector<Eigen::Vector3d> result;
+    for (const auto v : ring) result.push_back(building.vertices[v]);
+    return result;
+  };
+  Eigen::Vector3d sum = area_vector(places(face.outline));
+  for (const auto& hole : face.holes) sum += area_vector(places(hole));
+  return sum.norm();
+}
+
+Json face_to_json(const Building& building, const BuildingFace& face) {
+  Json json{{"class", name_of(face.surface)},
+            {"storey", face.storey},
+            {"room", face.room},
+            {"area", area_of(building, face)},
+            {"normal", json_of(face.plane.normal)},
+            {"offset", face.plane.offset},
+            {"primitive", face.primitive},
+            {"inferred", face.primitive < 0},
+            {"observed", face.observed},
+            {"residual", face.residual},
+            {"outline", face.outline}};
+  if (!face.holes.empty()) json["holes"] = face.holes;
+  return json;
+}
+
+Json opening_to_json(const BuildingOpening& opening, const Eigen::Vector3d& up) {
+  Json json{{"kind", opening.kind},     {"room_a", opening.room_a}, {"room_b", opening.room_b},
+            {"face_a", opening.face_a}, {"face_b", opening.face_b}, {"thickness", opening.thickness}};
+  if (opening.outline_a.size() >= 3) {
+    // Along up and across it; of a hole in a slab the sides of its first corner.
+    Eigen::Vector3d v =
+        up - up.dot(area_vector(opening.outline_a).normalized()) * area_vector(opening.outline_a).normalized();
+    v = v.norm() > 0.1 ? v.normalized() : (opening.outline_a[1] - opening.outline_a[0]).normalized();
+    const Eigen::Vector3d u = area_vector(opening.outline_a).normalized().cross(v);
+    Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const auto& p : opening.outline_a) {
+      low = low.cwiseMin(Eigen::Vector2d(u.dot(p), v.dot(p)));
+      high = high.cwiseMax(Eigen::Vector2d(u.dot(p), v.dot(p)));
+      middle += p / static_cast<double>(opening.outline_a.size());
+    }
+    json["position"] = json_of(middle);
+    json["width"] = high.x() - low.x();
+    json["height"] = high.y() - low.y();
+  }
+  json["outline_a"] = json_of(opening.outline_a);
+  json["outline_b"] = json_of(opening.outline_b);
+  return json;
+}
+
+/// A list of places that may be empty.
+std::vector<Eigen::Vector3d> places_of(const JsonField& field) {
+  std::vector<Eigen::Vector3d> result;
+  for (const auto& item : field.items()) result.push_back(item.place());
+  return result;
+}
+Ring corners_of(const JsonField& field, std::int32_t last_vertex) {
+  Ring ring;
+  for (const auto& item : field.items()) ring.push_back(static_cast<std::uint32_t>(item.whole(0, last_vertex)));
+  if (ring.size() < 3) field.fail("has fewer than three corners");
+  return ring;
+}
+SurfaceClass class_of(const JsonField& field) {
+  const auto name = field.text();
+  for (const auto c : {SurfaceClass::wall, SurfaceClass::floor, SurfaceClass::ceiling, SurfaceClass::object})
+    if (name == name_of(c)) return c;
+  field.fail("is '" + name + "'", "classes are wall, floor, ceiling, object");
+}
+Eigen::Vector3d direction_of(const JsonField& field) {
+  const Eigen::Vector3d direction = field.place();
+  if (std::abs(direction.norm() - 1) > 1e-6) field.fail("is not of unit length");
+  return direction;
+}
+
+BuildingRoom room_from_json(const JsonField& field, std::int32_t last_storey, std::int32_t last_face) {
+  BuildingRoom room;
+  room.name = field["name"].text();
+  room.storey = field["storey"].whole(0, last_storey);
+  room.area = field["area"].number();
+  room.height = field["height"].number();
+  room.volume = field["volume"].number();
+  for (const auto& f : field["faces"].items()) room.faces.push_back(f.whole(0, last_face));
+  room.outline = places_of(field["outline"]);
+  if (field.has("holes"))
+    for (const auto& hole : field["holes"].items()) room.holes.push_back(places_of(hole));
+  return room;
+}
+
+BuildingFace face_from_json(const JsonField& field, std::int32_t last_storey, std::int32_t last_room,
+                            std::int32_t last_vertex) {
+  BuildingFace face;
+  face.surface = class_of(field["class"]);
+  face.storey = field["storey"].whole(0, last_storey);
+  face.room = field["room"].whole(-1, last_room);
+  face.plane.normal = direction_of(field["normal"]);
+  face.plane.offset = field["offset"].number();
+  face.primitive = field["primitive"].whole(-1, any);
+  face.observed = field["observed"].number();
+  face.residual = field["residual"].number();
+  face.outline = corners_of(field["outline"], last_vertex);
+  if (field.has("holes"))
+    for (const auto& hole : field["holes"].items()) face.holes.push_back(corners_of(hole, last_vertex));
+  return face;
+}
+
+BuildingOpening opening_from_json(const JsonField& field, std::int32_t last_room, std::int32_t last_face) {
+  BuildingOpening opening;
+  opening.kind = field["kind"].text();
+  opening.room_a = field["room_a"].whole(-1, last_room);
+  opening.room_b = field["room_b"].whole(-1, last_room);
+  opening.face_a = field["face_a"].whole(-1, last_face);
+  opening.face_b = field["face_b"].whole(-1, last_face);
+  opening.thickness = field["thickness"].number();
+  opening.outline_a = places_of(field["outline_a"]);
+  opening.outline_b = places_of(field["outline_b"]);
+  return opening;
+}
+
+std::int32_t last_of(const JsonField& list) { return static_cast<std::int32_t>(list.items().size()) - 1; }
+
+}  // namespace
+
+std::string building_to_json(const Building& building, const Eigen::Vector3d& up) {
+  Check(building).run(up);
+  Json root{{"atrium_building", 1}, {"units", "m"}, {"up", json_of(up)}, {"origin", json_of(building.origin)}};
+  for (const char* list : {"storeys", "rooms", "faces", "openings", "walls"}) root[list] = Json::array();
+  for (const auto& storey : building.storeys)
+    root["storeys"].push_back({{"elevation", storey.elevation}, {"height", storey.height}});
+  for (const auto& room : building.rooms) root["rooms"].push_back(room_to_json(room));
+  for (const auto& face : building.faces) root["faces"].push_back(face_to_json(building, face));
+  for (const auto& opening : building.openings) root["openings"].push_back(opening_to_json(opening, up));
+  for (const auto& wall : building.walls)
+    root["walls"].push_back(
+        {{"face_a", wall.face_a}, {"face_b", wall.face_b}, {"thickness", wall.thickness}, {"area", wall.area}});
+  root["vertices"] = json_of(building.vertices);
+  return json_text(root, {"storeys", "rooms", "faces", "openings", "walls", "vertices"});
+}
+
+ReadBack building_from_json(const JsonField& root) {
+  if (!root.has("atrium_building"))
+    root.fail("is no building: it has no 'atrium_building'", "io.write_building documents the format");
+  if (root["atrium_building"].number() != 1) root["atrium_building"].fail("is a version that is not known", "known: 1");
+  if (root["units"].text() != "m") root["units"].fail("is not \"m\"");
+  ReadBack result;
+  Building& building = result.building;
+  result.up = direction_of(root["up"]);
+  building.origin = root["origin"].place();
+  for (const auto& field : root["storeys"].items())
+    building.storeys.push_back({field["elevation"].number(), field["height"].number()});
+  building.vertices = places_of(root["vertices"]);
+  const auto last_storey = last_of(root["storeys"]), last_room = last_of(root["rooms"]),
+             last_face = last_of(root["faces"]), last_vertex = last_of(root["vertices"]);
+  for (const auto& field : root["rooms"].items())
+    building.rooms.push_back(room_from_json(field, last_storey, last_face));
+  for (const auto& field : root["faces"].items())
+    building.faces.push_back(face_from_json(field, last_storey, last_room, last_vertex));
+  for (const auto& field : root["openings"].items())
+    building.openings.push_back(opening_from_json(field, last_room, last_face));
+  for (const auto& field : root["walls"].items())
+    building.walls.push_back({field["face_a"].whole(0, last_face), field["face_b"].whole(0, last_face),
+                              field["thickness"].number(), field["area"].number()});
+  return result;
+}
+
+}  // namespace atrium::io

@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+
+#include "modules/io/json_fields.hpp"
+#include "modules/types/building.hpp"
+
+namespace atrium::io {
+
+/// building.json, as io.write_building documents it. `up` is what is up in the building's coordinates.
+/// Throws Error for numbers that are not finite, and for indices of what is not there.
+std::string building_to_json(const Building& building, const Eigen::Vector3d& up);
+
+struct ReadBack {
+  Building building;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+};
+ReadBack building_from_json(const JsonField& root);
+
+}  // namespace atrium::io

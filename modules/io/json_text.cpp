@@ -1,0 +1,39 @@
+#include "modules/io/json_text.hpp"
+
+#include <algorithm>
+
+#include "modules/io/mapped_file.hpp"
+
+namespace atrium::io {
+
+using Json = JsonField::Json;
+
+std::string json_text(const Json& root, std::initializer_list<std::string_view> long_lists) {
+  const auto dump = [](const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); };
+  std::string text = "{";
+  for (const auto& [key, value] : root.items()) {
+    text += (text.size() > 1 ? ",\n" : "\n") + Json(key).dump() + ": ";
+    if (std::find(long_lists.begin(), long_lists.end(), key) == long_lists.end()) {
+      text += dump(value);
+      continue;
+    }
+    text += "[";
+    for (std::size_t i = 0; i < value.size(); ++i) text += (i > 0 ? ",\n " : "\n ") + dump(value[i]);
+    text += "]";
+  }
+  return text + "\n}\n";
+}
+
+Json parsed_json(const std::string& path) {
+  const MappedFile file(path);
+  if (file.size() == 0) throw Error(path + ": the file is empty");
+  try {
+    return Json::parse(file.text());
+  } catch (const Json::exception& e) {
+    const std::string what = e.what();  // "[json.exception.parse_error.101] parse error at line 1, column 1: …"
+    const auto start = what.find("] ");
+    throw Error(path + ": not valid JSON: " + (start == std::string::npos ? what : what.substr(start + 2)));
+  }
+}
+
+}  // namespace atrium::io

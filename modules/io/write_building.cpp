@@ -1,0 +1,23 @@
+#include "modules/io/write_building.hpp"
+
+#include "modules/io/building_json.hpp"
+
+namespace atrium::io {
+
+WriteBuilding::Out WriteBuilding::run(const In& in, const Params& params, Context& context) {
+  std::string text;
+  if (in.transform) {
+    const Transform back = inverse(*in.transform);
+    text = building_to_json(transformed(*in.building, back), back.rotation * Eigen::Vector3d::UnitZ());
+  } else {
+    text = building_to_json(*in.building, Eigen::Vector3d::UnitZ());
+  }
+  const auto target = context.output(params.path.path);
+  AtomicFile file(target);
+  file.write(text);
+  file.commit();
+  context.wrote(target);
+  return {};
+}
+
+}  // namespace atrium::io
