@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/floorplan/drawn_openings.hpp"
 #include "modules/floorplan/wall_pieces.hpp"
 
 namespace atrium::floorplan {
@@ -39,18 +40,46 @@ Eigen::Vector2d seen_from(Side side, const Eigen::Vector2d& p) {
 
 void add_face(View& view, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d d = b - a;
-  if (std::abs(d.x()) <= parallel * d.norm() && d.norm() >= shortest)
+  if (std::abs(d.x()) <= parallel * d.norm())
     view.across.push_back({a.y() < b.y() ? a.x() : b.x(), std::min(a.y(), b.y()), std::max(a.y(), b.y())});
   else if (std::abs(d.x()) > std::abs(d.y()))
     view.along.push_back({0.5 * (a.y() + b.y()), std::min(a.x(), b.x()), std::max(a.x(), b.x())});
 }
 
+// Pieces of one line that touch each other are one.
+void merge(std::vector<Edge>& edges) {
+  constexpr double same = 0.001;  // metres
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return a.at != b.at ? a.at < b.at : a.near != b.near ? a.near < b.near : a.far < b.far;
+  });
+  std::vector<Edge> merged;
+  for (const auto& edge : edges) {
+    const auto touching = std::find_if(merged.rbegin(), merged.rend(), [&](const Edge& other) {
+      return edge.at - other.at < same && edge.near < other.far + same && other.near < edge.far + same;
+    });
+    if (touching == merged.rend()) {
+      merged.push_back(edge);
+    } else {
+      touching->near = std::min(touching->near, edge.near);
+      touching->far = std::max(touching->far, edge.far);
+    }
+  }
+  edges = std::move(merged);
+}
+
 View view_from(Side side, const PlanStorey& storey) {
   View view;
+  const auto face = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    add_face(view, seen_from(side, a), seen_from(side, b));
+  };
+  // Over its doors and windows a wall goes on.
+  for (const auto& opening : storey.openings) {
+    if (opening.kind == "slab" || !(opening.width() > 0)) continue;
+    const PlanRing gap = gap_of(opening, 0);
+    face(gap[0], gap[1]);
+    if (opening.thickness > 0) face(gap[2], gap[3]);
+  }
   for (const auto& wall : storey.walls) {
-    const auto face = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-      add_face(view, seen_from(side, a), seen_from(side, b));
-    };
     if (wall.outline.empty()) {
       face(wall.from, wall.to);
     } else {
@@ -58,6 +87,9 @@ View view_from(Side side, const PlanStorey& storey) {
       face(wall.outline[2], wall.outline[3]);
     }
   }
+  merge(view.across);
+  merge(view.along);
+  std::erase_if(view.across, [](const Edge& edge) { return edge.far - edge.near < shortest; });
   return view;
 }
 
@@ -86,6 +118,27 @@ std::vector<double> stops_of(Side side, const PlanStorey& storey) {
     });
     if (!hidden) stops.push_back(edge.at);
   }
+  return distinct(std::move(stops));
+}
+
+// The ends of the doors and windows in the facades that look to this side, between those of the whole.
+std::vector<double> facade_openings(Side side, const PlanStorey& storey, const std::vector<double>& whole) {
+  const View view = view_from(side, storey);
+  std::vector<double> stops;
+  for (const auto& opening : storey.openings) {
+    if (opening.kind == "slab" || (opening.room_a >= 0) == (opening.room_b >= 0)) continue;
+    Eigen::Vector2d a = seen_from(side, opening.from), b = seen_from(side, opening.to);
+    if (opening.room_a < 0) std::swap(a, b);  // the room is now on the left in the plan
+    const bool mirrored = side == Side::top || side == Side::left;
+    if (std::abs(b.y() - a.y()) > parallel * (b - a).norm() || (b.x() > a.x()) == mirrored) continue;
+    const double low = std::min(a.x(), b.x()), high = std::max(a.x(), b.x());
+    const bool hidden = std::any_of(view.along.begin(), view.along.end(), [&](const Edge& wall) {
+      return wall.at < a.y() - behind_facade && wall.near < high - same_stop && wall.far > low + same_stop;
+    });
+    if (!hidden) stops.insert(stops.end(), {low, high});
+  }
+  if (stops.empty()) return stops;
+  stops.insert(stops.end(), {whole.front(), whole.back()});
   return distinct(std::move(stops));
 }
 
@@ -156,28 +209,40 @@ std::vector<DimensionChain> dimensions_of(const PlanStorey& storey, double mm) {
   std::vector<DimensionChain> chains;
   if (walls.empty()) return chains;
   const std::vector<double> bottom = stops_of(Side::bottom, storey), left = stops_of(Side::left, storey);
+  // Chains of a side one outside of the other. With one of openings, which has many texts, the extension lines of those
+  // outside of it begin beyond it.
+  const auto stack = [&](Side side, const std::vector<double>& openings,
+                         std::initializer_list<std::vector<double>> rows) {
+    double offset = first_line * mm;
+    const auto add_row = [&](const std::vector<double>& stops) {
+      if (stops.size() < 2) return;
+      chains.push_back(chain_of(side, box, stops, offset, mm));
+      if (!openings.empty() && offset > first_line * mm)
+        chains.back().from_building = chains.back().line - chains.back().outwards() * 2 * mm;
+      offset += std::max(line_step * mm, chains.back().depth + 2 * above * mm);
+    };
+    add_row(openings);
+    for (const auto& stops : rows) add_row(stops);
+  };
   const auto add = [&](Side side, const std::vector<double>& stops, double low, double high) {
     const std::vector<double> whole = whole_of(side, storey, low, high);
     const bool more = stops.size() > 2 || (stops.size() == 2 && adds_to(stops, whole));
-    double offset = first_line * mm;
-    if (more) {
-      chains.push_back(chain_of(side, box, stops, offset, mm));
-      offset += std::max(line_step * mm, chains.back().depth + 2 * above * mm);
-    }
-    if (whole.size() == 2) chains.push_back(chain_of(side, box, whole, offset, mm));
+    stack(side, facade_openings(side, storey, whole),
+          {more ? stops : std::vector<double>{}, whole.size() == 2 ? whole : std::vector<double>{}});
   };
   add(Side::bottom, bottom, walls.low.x(), walls.high.x());
   add(Side::left, left, walls.low.y(), walls.high.y());
-  const auto opposite = [&](Side side, const std::vector<double>& known) {
+  const auto opposite = [&](Side side, const std::vector<double>& known, double low, double high) {
     const auto stops = stops_of(side, storey);
-    if (stops.size() > 1 && adds_to(stops, known)) chains.push_back(chain_of(side, box, stops, first_line * mm, mm));
+    stack(side, facade_openings(side, storey, whole_of(side, storey, low, high)),
+          {stops.size() > 1 && adds_to(stops, known) ? stops : std::vector<double>{}});
   };
   std::vector<double> known = bottom;
   known.insert(known.end(), {walls.low.x(), walls.high.x()});
-  opposite(Side::top, known);
+  opposite(Side::top, known, walls.low.x(), walls.high.x());
   known = left;
   known.insert(known.end(), {walls.low.y(), walls.high.y()});
-  opposite(Side::right, known);
+  opposite(Side::right, known, walls.low.y(), walls.high.y());
   return chains;
 }
 

@@ -34,9 +34,10 @@ struct DimensionChain {
   double outwards() const { return side == Side::top || side == Side::right ? 1 : -1; }
 };
 
-/// The dimensions of a storey whose walls are parallel to the axes: on each side a chain of the wall faces that can be
-/// seen from there (top and right only where they differ from bottom and left), and outside of it the whole length.
-/// `mm` is how many metres of the plan are a millimetre of paper.
+/// The dimensions of a storey whose walls are parallel to the axes: on each side a chain of the doors and windows of
+/// the facades that look there, one of the wall faces that can be seen from there (top and right only where they differ
+/// from bottom and left), and outside of them the whole length. `mm` is how many metres of the plan are a millimetre of
+/// paper.
 std::vector<DimensionChain> dimensions_of(const PlanStorey& storey, double mm);
 
 /// Width of a text of the given height, at most (wide sans-serif fonts).

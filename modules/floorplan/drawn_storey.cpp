@@ -64,11 +64,16 @@ void draw_walls(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey) {
 
 void draw_room_labels(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey) {
   std::vector<PlanWall> obstacles = storey.walls;
-  for (const auto& opening : storey.openings)
-    for (const auto& leaf : door_leaves(opening, storey)) {
-      obstacles.emplace_back().from = leaf.hinge;
-      obstacles.back().to = leaf.open;
-    }
+  const auto avoid = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    obstacles.emplace_back().from = from;
+    obstacles.back().to = to;
+  };
+  for (const auto& opening : storey.openings) {
+    if (opening.kind == "slab")
+      for (std::size_t i = 0; i < opening.outline.size(); ++i)
+        avoid(opening.outline[i], opening.outline[(i + 1) % opening.outline.size()]);
+    for (const auto& leaf : door_leaves(opening, storey)) avoid(leaf.hinge, leaf.open);
+  }
   canvas.begin_group("fill=\"#1a1a1a\" text-anchor=\"middle\"");
   for (const auto& room : storey.rooms) {
     const std::string area = fmt::format("{:.2f} m\u00B2", room.polygon.area());
