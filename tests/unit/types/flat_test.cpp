@@ -13,6 +13,7 @@
 #include "graph/pipeline/registry.hpp"
 #include "modules/types/adjacency.hpp"
 #include "modules/types/building.hpp"
+#include "modules/types/cell_complex.hpp"
 #include "modules/types/floor_plan.hpp"
 #include "modules/types/metrics.hpp"
 #include "modules/types/picture.hpp"
@@ -74,8 +75,8 @@ struct Odds {
   std::array<std::string, 3> corners;
 };
 
-using PortTypes = testing::Types<bool, std::int64_t, double, std::string, Adjacency, Building, Cloud, FloorPlan,
-                                 GroundTruth, Mesh, Metrics, Pictures, PlaneMeshes, PlanePrimitives, Poses,
+using PortTypes = testing::Types<bool, std::int64_t, double, std::string, Adjacency, Building, CellComplex, Cloud,
+                                 FloorPlan, GroundTruth, Mesh, Metrics, Pictures, PlaneMeshes, PlanePrimitives, Poses,
                                  SimulatedScene, Structure, Textures, Transform, Odds>;
 
 template <class T>
