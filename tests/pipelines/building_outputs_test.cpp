@@ -1,0 +1,104 @@
+// What pipelines/atrium.yaml writes of a simulated flat, and what can be made of its files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "tests/pipelines/steps.hpp"
+
+namespace atrium::test {
+namespace {
+
+using nlohmann::json;
+
+// Rooms of synth.flat with its default sizes (10.2 m × 8 m, walls of 12 cm): the largest first.
+const double xs = 0.56 * 10.2, left = 0.58 * 8, right = 0.47 * 8, t = 0.12;
+const std::vector<double> flat_rooms{xs * left, xs*(8 - left - t), (10.2 - xs - t) * (8 - right - t),
+                                     (10.2 - xs - t) * right};
+
+class BuildingOutputs : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch = std::make_unique<TemporaryFolder>();
+    const auto simulated = run_pipeline_file(
+        "simulate.yaml", {"points=400000", "noise=8 mm", "yaw=23 deg", "tilt=2.5 deg", "offset=[500000, 5400000, 300]"},
+        *scratch / "scan");
+    ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
+    const auto made =
+        run_pipeline_file("atrium.yaml", {"scan=" + (*scratch / "scan/scan.ply").string()}, *scratch / "made");
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+  }
+  static void TearDownTestSuite() { scratch.reset(); }
+  static json building() { return json::parse(read_text(*scratch / "made/building.json")); }
+  static std::unique_ptr<TemporaryFolder> scratch;
+};
+std::unique_ptr<TemporaryFolder> BuildingOutputs::scratch;
+
+void expect_areas(std::vector<double> areas) {
+  std::sort(areas.rbegin(), areas.rend());
+  ASSERT_EQ(areas.size(), flat_rooms.size());
+  for (std::size_t i = 0; i < areas.size(); ++i) EXPECT_NEAR(areas[i], flat_rooms[i], 0.02 * flat_rooms[i]);
+}
+
+TEST_F(BuildingOutputs, TheBuildingHasTheRoomsInTheInputsFrame) {
+  const json root = building();
+  std::vector<double> areas;
+  for (const auto& room : root["rooms"]) areas.push_back(room["area"]);
+  expect_areas(areas);
+  EXPECT_NEAR(root["origin"][0], 500000, 30);
+  EXPECT_NEAR(root["origin"][1], 5400000, 30);
+  EXPECT_LT(root["up"][2], 0.9995) << "the scan is tilted by 2.5°";
+  EXPECT_GT(root["up"][2], 0.998);
+  EXPECT_FALSE(root["openings"].empty());
+}
+
+TEST_F(BuildingOutputs, ThePlanHasTheRoomsAndTheDoorsBetweenThem) {
+  const json plan = json::parse(read_text(*scratch / "made/floorplan.geojson"));
+  std::vector<double> areas;
+  std::size_t inner_doors = 0;
+  for (const auto& feature : plan["features"]) {
+    const json& properties = feature["properties"];
+    if (properties["class"] == "room") areas.push_back(properties["area_m2"]);
+    if (properties["class"] == "door" && properties["rooms"][0].is_string() && properties["rooms"][1].is_string()) {
+      ++inner_doors;
+      EXPECT_NEAR(properties["thickness_m"], 0.12, 0.02);
+    }
+  }
+  expect_areas(areas);
+  EXPECT_GE(inner_doors, 2U);
+}
+
+TEST_F(BuildingOutputs, TheSceneAndItsModelAreThere) {
+  for (const auto* name : {"structure.ply", "shell.ply", "scene.ply", "scene_without_ceiling.ply", "scene.glb",
+                           "floorplan.svg", "floorplan.dxf"})
+    EXPECT_GT(fs::file_size(*scratch / "made" / name), 1000U) << name;
+}
+
+TEST_F(BuildingOutputs, TheFileGivesTheSameMeshAndPlan) {
+  std::ofstream(*scratch / "again.yaml")
+      << "atrium: 1\n"
+         "nodes:\n"
+         "  read: {type: io.read_building, params: {path: made/building.json}}\n"
+         "  mesh: {type: layout.mesh, in: {building: read.building, transform: read.transform}}\n"
+         "  write: {type: io.write_mesh, in: {mesh: mesh.shell}, params: {path: shell.ply}}\n"
+         "  plan: {type: floorplan.from_building, in: {building: read.building, transform: read.transform}}\n"
+         "  draw: {type: floorplan.write_geojson, in: {plan: plan.plan}, params: {path: floorplan.geojson}}\n"
+         "  back: {type: io.write_building, in: {building: read.building, transform: read.transform}, params: {path: "
+         "building.json}}\n";
+  const auto again =
+      atrium({"run", (*scratch / "again.yaml").string(), "--quiet", "--out", (*scratch / "again").string()});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(fs::file_size(*scratch / "again/shell.ply"), fs::file_size(*scratch / "made/shell.ply"));
+  // Through the turn and back, nothing moves by more than a hundredth of a millimetre.
+  const json first = building(), second = json::parse(read_text(*scratch / "again/building.json"));
+  ASSERT_EQ(first["vertices"].size(), second["vertices"].size());
+  for (std::size_t i = 0; i < first["vertices"].size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(first["vertices"][i][k].get<double>() + first["origin"][k].get<double>(),
+                  second["vertices"][i][k].get<double>() + second["origin"][k].get<double>(), 1e-5);
+  EXPECT_EQ(json::parse(read_text(*scratch / "again/floorplan.geojson"))["features"].size(),
+            json::parse(read_text(*scratch / "made/floorplan.geojson"))["features"].size());
+}
+
+}  // namespace
+}  // namespace atrium::test
