@@ -37,6 +37,7 @@ class Assembly {
  private:
   void add_storey(std::int32_t index) {
     StoreyCells storey = cells_.storeys[static_cast<std::size_t>(index)];
+    cut_pinched_cells(storey);
     split_crossing_steps(storey);
     std::vector<std::int32_t> rooms;
     for (const auto& cell : storey.cells)

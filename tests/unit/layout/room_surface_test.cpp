@@ -6,6 +6,7 @@
 
 #include <set>
 
+#include "modules/geometry/polygon.hpp"
 #include "tests/unit/layout/cells.hpp"
 
 namespace atrium::layout {
@@ -77,6 +78,7 @@ struct Made {
   RoomSurface surface;
 };
 Made made(StoreyCells storey, std::int32_t room = 0) {
+  cut_pinched_cells(storey);
   split_crossing_steps(storey);
   RoomSurface surface = room_surface(storey, room);
   return {std::move(storey), std::move(surface)};
@@ -201,12 +203,19 @@ TEST(RoomSurface, ACeilingThatSlantsDownToTheFloor) {
 }
 
 TEST(RoomSurface, ACeilingBelowTheFloorInTheMiddleOfACell) {
-  // Nothing cut the cell where they meet (at x = 1.4): closed all the same.
+  // Nothing cut the cell where they meet, at x = 1.4: there the room ends.
   StoreyCells cells = grid_cells({"....", ".aa.", "...."});
   cells.ceilings[0] = slanted(-1.4, {1, 0}, false);
   const auto [storey, surface] = made(cells);
-  EXPECT_TRUE(sides_of(surface).closed());
-  EXPECT_GT(volume_of(surface), 0.5 * 1.6 * 1.6 - 0.1);
+  EXPECT_EQ(flaw(storey, surface), "");
+  EXPECT_EQ(surface.faces.size(), 5U);
+  EXPECT_NEAR(volume_of(surface), 0.5 * 1.6 * 1.6, 1e-9);
+}
+
+TEST(RoomSurface, ACeilingBelowTheFloorEverywhereIsNoRoom) {
+  StoreyCells cells = grid_cells({"....", ".aa.", "...."});
+  cells.ceilings[0] = level(-0.5, false);
+  EXPECT_TRUE(made(cells).surface.faces.empty());
 }
 
 TEST(RoomSurface, ARoomThatReachesTheBorderOfTheComplex) {
@@ -289,6 +298,47 @@ RC_GTEST_PROP(RoomSurface, IsSoundForSlantedFloorsAndCeilings, (std::uint32_t se
     cell.ceiling = static_cast<std::int32_t>(random.index(cells.ceilings.size()));
   }
   expect_sound(cells, 8e-3);
+}
+
+double clear_height(const StoreyCells& cells, const Vector2d& p) {
+  return cells.ceilings[0].height_at(p) - cells.floors[0].height_at(p);
+}
+/// Positive where the first ceiling is above the first floor.
+Line2 difference(const StoreyCells& cells) {
+  const double zero = clear_height(cells, {0, 0});
+  return {{clear_height(cells, {1, 0}) - zero, clear_height(cells, {0, 1}) - zero}, zero};
+}
+double volume_over(const Polygon2& polygon, const StoreyCells& cells) {
+  double sum = 0;
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    const Polygon2 triangle{polygon[0], polygon[i - 1], polygon[i]};
+    sum += area(triangle) * clear_height(cells, (triangle[0] + triangle[1] + triangle[2]) / 3);
+  }
+  return sum;
+}
+
+// Ceilings that cut through floors anywhere: the room is what is between them.
+RC_GTEST_PROP(RoomSurface, IsSoundWhereCeilingsMeetFloors, (std::uint32_t seed)) {
+  Random random(seed);
+  StoreyCells cells = random_cells(random);
+  const auto slope = [&](double most) { return Vector2d(random.uniform(-most, most), random.uniform(-most, most)); };
+  const Vector2d floor = slope(0.05), ceiling = slope(0.6);
+  cells.floors[0] = slanted(-floor.sum() * 5, floor, true);
+  cells.ceilings[0] = slanted(random.uniform(-1, 2) - ceiling.sum() * 5, ceiling, false);
+  for (const int room : {0, 1}) {
+    const auto [storey, surface] = made(cells, room);
+    const auto found = flaw(storey, surface);
+    if (!found.empty()) RC_FAIL(found);
+    double expected = 0;
+    for (const auto& cell : cells.cells) {
+      if (cell.room != room) continue;
+      Polygon2 polygon;
+      for (const auto c : cell.corners) polygon.push_back(cells.vertices[c]);
+      const CutPolygon parts = cut(polygon, difference(cells), 0);
+      if (parts.positive.size() > 2) expected += volume_over(parts.positive, cells);
+    }
+    RC_ASSERT(std::abs(volume_of(surface) - expected) <= 1e-2 * (1 + expected));
+  }
 }
 
 }  // namespace
