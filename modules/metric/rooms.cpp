@@ -6,6 +6,7 @@
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 
@@ -26,13 +27,13 @@ struct Room {
   double area() const { return valid ? bg::area(polygon) : 0; }
 };
 
-Room room_of(const PlanPolygon& polygon, double floor, const Eigen::Vector2d& shift, const std::string& what) {
+Room room_of(const PlanPolygon& polygon, double floor, const std::string& what) {
   Room room;
   room.floor = floor;
   const auto fill = [&](auto& ring, const PlanRing& from) {
     for (const auto& p : from) {
       if (!p.allFinite()) throw Error(what + " has a corner that is not finite");
-      ring.emplace_back(p.x() + shift.x(), p.y() + shift.y());
+      ring.emplace_back(p.x(), p.y());
     }
   };
   fill(room.polygon.outer(), polygon.outline);
@@ -48,30 +49,61 @@ Room room_of(const PlanPolygon& polygon, double floor, const Eigen::Vector2d& sh
   return room;
 }
 
-// About `origin`, in which both sides are compared.
-std::vector<Room> rooms_of(const FloorPlan& plan, const Eigen::Vector3d& origin, const std::string& whose) {
+// In the frame of `plan`, about its origin, both sides are compared. A point of another frame in it:
+using ToPlan = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
+
+Room room_of(const std::vector<Eigen::Vector3d>& outline, const std::vector<std::vector<Eigen::Vector3d>>& holes,
+             const ToPlan& to_plan, const std::string& what) {
+  PlanPolygon polygon;
+  double floor = 0;
+  for (const auto& p : outline) {
+    const Eigen::Vector3d place = to_plan(p);
+    polygon.outline.emplace_back(place.head<2>());
+    floor += place.z() / static_cast<double>(outline.size());
+  }
+  for (const auto& hole : holes) {
+    polygon.holes.emplace_back();
+    for (const auto& p : hole) polygon.holes.back().emplace_back(to_plan(p).head<2>());
+  }
+  return room_of(polygon, floor, what);
+}
+
+std::vector<Room> rooms_of(const FloorPlan& plan, const ToPlan& to_plan, const std::string& whose) {
   std::vector<Room> rooms;
-  const Eigen::Vector3d shift = plan.origin - origin;
   for (const auto& storey : plan.storeys)
-    for (const auto& room : storey.rooms)
-      rooms.push_back(
-          room_of(room.polygon, storey.elevation + shift.z(), shift.head<2>(), whose + " '" + room.name + "'"));
+    for (const auto& room : storey.rooms) {
+      const auto raised = [&](const PlanRing& ring) {
+        std::vector<Eigen::Vector3d> places;
+        for (const auto& p : ring) places.push_back(plan.origin + Eigen::Vector3d(p.x(), p.y(), storey.elevation));
+        return places;
+      };
+      std::vector<std::vector<Eigen::Vector3d>> holes;
+      for (const auto& hole : room.polygon.holes) holes.push_back(raised(hole));
+      rooms.push_back(room_of(raised(room.polygon.outline), holes, to_plan, whose + " '" + room.name + "'"));
+    }
   return rooms;
 }
 
 std::vector<Room> rooms_of(const GroundTruth& truth, const FloorPlan& plan) {
+  const ToPlan to_plan = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    return plan.to_plan.rotation * (truth.origin + p) + plan.to_plan.translation - plan.origin;
+  };
   std::vector<Room> rooms;
-  for (const auto& room : truth.rooms) {
-    PlanPolygon polygon;
-    double floor = 0;
-    for (const auto& p : room.outline) {
-      const Eigen::Vector3d place = plan.to_plan.rotation * (truth.origin + p) + plan.to_plan.translation - plan.origin;
-      polygon.outline.emplace_back(place.head<2>());
-      floor += place.z() / static_cast<double>(room.outline.size());
-    }
-    rooms.push_back(room_of(polygon, floor, Eigen::Vector2d::Zero(), "the true room '" + room.name + "'"));
-  }
+  for (const auto& room : truth.rooms)
+    rooms.push_back(room_of(room.outline, {}, to_plan, "the true room '" + room.name + "'"));
   return rooms;
+}
+
+// From the true plan's frame back to the scan's, and on to the plan's; where both are turned alike, not at all, so that
+// no number is rounded.
+ToPlan between(const FloorPlan& from, const FloorPlan& plan) {
+  const Transform &first = from.to_plan, &second = plan.to_plan;
+  if (first.rotation == second.rotation && first.translation == second.translation)
+    return [&plan](const Eigen::Vector3d& p) -> Eigen::Vector3d { return p - plan.origin; };
+  return [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    const Eigen::Vector3d scan = first.rotation.transpose() * (p - first.translation);
+    return second.rotation * scan + second.translation - plan.origin;
+  };
 }
 
 double overlap_share(const Room& a, const Room& b) {
@@ -171,9 +203,10 @@ Rooms::Out Rooms::run(const In& in, const Params& params, Context& context) {
   if (static_cast<bool>(in.truth) == static_cast<bool>(in.true_plan))
     throw Error(in.truth ? "both truth and true_plan are wired" : "neither truth nor true_plan is wired",
                 "wire one of them: truth of a simulated scene or a layout, or a plan");
+  const FloorPlan& plan = *in.plan;
   const auto expected =
-      in.truth ? rooms_of(*in.truth, *in.plan) : rooms_of(*in.true_plan, in.plan->origin, "the true room");
-  const auto found = rooms_of(*in.plan, in.plan->origin, "the room");
+      in.truth ? rooms_of(*in.truth, plan) : rooms_of(*in.true_plan, between(*in.true_plan, plan), "the true room");
+  const auto found = rooms_of(plan, between(plan, plan), "the room");
   if (expected.empty()) throw Error("the truth has no rooms: nothing to compare with");
   for (const auto* side : {&found, &expected}) {
     const auto broken = std::count_if(side->begin(), side->end(), [](const Room& r) { return !r.valid; });

@@ -51,7 +51,8 @@ struct Rooms {
   static constexpr auto inputs = std::tuple{
       port(&In::plan, "plan", "What was found."),
       port(&In::truth, "truth", "The true rooms, in the frame that the plan was made in; this or true_plan."),
-      port(&In::true_plan, "true_plan", "The true rooms as a plan; this or truth.")};
+      port(&In::true_plan, "true_plan",
+           "The true rooms as a plan of the same scan, its frame undone by its to_plan; this or truth.")};
   static constexpr auto outputs = std::tuple{port(&Out::metrics, "metrics", "rooms.…: counts, shares, m, deg.")};
   static constexpr auto params = std::tuple{
       param(&Params::min_iou, "min_iou", ratio, within(0, 1), "Rooms match above this intersection over union."),

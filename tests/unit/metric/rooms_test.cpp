@@ -50,6 +50,35 @@ TEST(MetricRooms, IdenticalIsPerfect) {
   expect_perfect(compare(plan({{{0, 5}, {4, 5}, {4, 2}, {4, 0}, {2, 0}, {0, 0}}, rectangle(4.1, 0, 3, 5)}), two));
 }
 
+TEST(MetricRooms, PlansOfTurnedFramesAreComparedInOne) {
+  // The same two rooms of one scan, drawn by two programs that turned and moved the scan each in its own way.
+  const auto turned = [](double angle, const Eigen::Vector3d& shift) {
+    FloorPlan result = two;
+    result.origin = {3, -2, 1};
+    result.to_plan.rotation = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    result.to_plan.translation = shift;
+    result.storeys[0].elevation = shift.z() - result.origin.z();
+    for (auto& room : result.storeys[0].rooms)
+      for (auto& p : room.polygon.outline) {
+        const Eigen::Vector3d place =
+            result.to_plan.rotation * Eigen::Vector3d(p.x(), p.y(), 0) + shift - result.origin;
+        p = place.head<2>();
+      }
+    return result;
+  };
+  const FloorPlan one = turned(0.7, {10, 20, 4}), other = turned(-1.9, {-5, 1, -8});
+  for (const auto& [found, truth] : {std::pair{one, two}, {two, one}, {one, other}, {other, one}, {one, one}}) {
+    const auto m = compare(found, truth);
+    expect_perfect(m);
+    EXPECT_NEAR(of(m, "iou"), 1, 1e-9);
+    EXPECT_NEAR(of(m, "corners.error"), 0, 1e-9);
+  }
+  // Told nothing of the turn, they do not match.
+  FloorPlan silent = one;
+  silent.to_plan = {};
+  EXPECT_EQ(of(compare(silent, two), "matched"), 0);
+}
+
 TEST(MetricRooms, OneRoomLacks) {
   const auto m = compare(plan({rectangle(0, 0, 4, 5)}), two);
   EXPECT_EQ(of(m, "precision"), 1);
