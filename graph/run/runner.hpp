@@ -75,7 +75,8 @@ struct NodeRecord {
   double cpu = 0;
   double hash_start = 0,
          hash_wall = 0;  ///< sizing and hashing the outputs: after the nodes that read them were started
-  /// Highest resident memory of the process up to the node's end, bytes; with one thread: while the node ran.
+  /// Highest resident memory of the process up to the node's end, bytes; with one thread: while the node ran. With that
+  /// of a program that computed for the node.
   std::uint64_t peak_memory = 0;
   int thread = 0;  ///< which of the run's threads, from 0
   std::vector<OutputRecord> outputs;

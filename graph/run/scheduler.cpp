@@ -8,6 +8,7 @@
 #include <new>
 #include <tuple>
 
+#include "graph/api/helper_memory.hpp"
 #include "graph/run/clocks.hpp"
 #include "graph/run/node_host.hpp"
 
@@ -144,10 +145,12 @@ bool Scheduler::call_watched(std::size_t n, Inputs inputs, std::vector<Value>& o
   if (result_.threads == 1) reset_peak_memory();
   const bool watched = cache_ != nullptr || options_.memory > 0;
   const std::uint64_t before = watched ? resident_memory() : 0;
+  take_helper_memory();
   const bool ok = call(n, inputs, outputs);
+  const std::uint64_t helper_memory = take_helper_memory();
   inputs.clear();  // the last reference goes in settle
   if (record.wall >= peak_reading_interval || result_.threads == 1) peak_memory_ = peak_memory();
-  record.peak_memory = peak_memory_;
+  record.peak_memory = peak_memory_ + helper_memory;
   growth = record.peak_memory > before ? record.peak_memory - before : 0;
   return ok;
 }

@@ -11,8 +11,16 @@ namespace {
 std::int64_t columns_of(const SweepFile& sweep, const SweepSheet& sheet) {
   if (sheet.columns > 0) return sheet.columns;
   for (auto axis = sweep.axes.rbegin(); axis != sweep.axes.rend(); ++axis)
-    if (axis->choices.size() > 1) return std::min<std::int64_t>(static_cast<std::int64_t>(axis->choices.size()), 20);
+    if (axis->choices.size() > 1 && axis->name != "seed")
+      return std::min<std::int64_t>(static_cast<std::int64_t>(axis->choices.size()), 20);
   return 1;
+}
+
+/// Of variants that differ in their seed only the first one has a picture.
+bool is_shown(const SweepFile& sweep, const SweepVariant& variant) {
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a)
+    if (sweep.axes[a].name == "seed" && variant.choices[a] != 0) return false;
+  return true;
 }
 
 void set(PipelineNode& node, std::string_view name, const ParamValue& value) {
@@ -41,6 +49,7 @@ std::vector<std::string> write_sheets(const SweepFile& sweep, const SweepPlan& p
     std::vector<std::string> files;
     std::vector<std::string> captions;
     for (std::size_t v = 0; v < results.size(); ++v) {
+      if (!is_shown(sweep, plan.variants[v])) continue;
       files.push_back(
           (std::filesystem::absolute(options.out) / "variants" / plan.variants[v].id / sheet.picture).string());
       captions.push_back(label_of(sweep, plan.variants[v]) +

@@ -81,7 +81,7 @@ struct SweepFile {
 ///   random: {samples: 20, seed: 7, of: {planes.distance: {uniform: [1 cm, 4 cm]}}}
 ///   exclude: [{scene: office, translated.max_separation: 1 m}]
 ///   metrics: {faces: faces.faces.triangles, completeness: {of: quality.structure.b50mm.completeness, unit: "%"}}
-///   pictures: {sheet.png: picture.png}
+///   pictures: {sheet.png: picture.png}       # of variants that differ in their seed only, the first one's
 std::unique_ptr<SweepFile> read_sweep(const std::filesystem::path& path, const std::string& name, Findings& findings);
 
 }  // namespace atrium

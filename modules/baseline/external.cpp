@@ -6,8 +6,6 @@
 #include <array>
 #include <cerrno>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <regex>
@@ -66,12 +64,31 @@ const char* name_of(External::CloudFormat format) {
 }
 const char* name_of(External::PlanesFormat format) { return std::array{"vg", "bvg"}[static_cast<std::size_t>(format)]; }
 
+// An argument in pieces: plain text, and names that stood in braces. Doubled braces are plain ones.
+struct Piece {
+  std::string text;
+  bool placeholder = false;
+};
+std::vector<Piece> pieces(const std::string& argument) {
+  static const std::regex pattern("\\{\\{|\\}\\}|\\{([a-z_]+)\\}");
+  std::vector<Piece> result;
+  auto from = argument.cbegin();
+  for (std::sregex_iterator i(argument.begin(), argument.end(), pattern), end; i != end; ++i) {
+    const auto& match = *i;
+    result.push_back({std::string(from, match[0].first)});
+    result.push_back({match[1].matched ? match[1].str() : match[0].str().substr(1), match[1].matched});
+    from = match[0].second;
+  }
+  result.push_back({std::string(from, argument.cend())});
+  return result;
+}
+
 // The names in braces that the arguments have.
 std::map<std::string, bool> placeholders(const std::vector<std::string>& arguments) {
-  static const std::regex pattern("\\{([a-z_]+)\\}");
   std::map<std::string, bool> found;
   for (const auto& argument : arguments)
-    for (std::sregex_iterator i(argument.begin(), argument.end(), pattern), end; i != end; ++i) found[(*i)[1]] = true;
+    for (const auto& piece : pieces(argument))
+      if (piece.placeholder) found[piece.text] = true;
   return found;
 }
 
@@ -88,7 +105,7 @@ void check_command(const External::In& in, const std::vector<std::string>& comma
     const auto known = wired.find(name);
     if (known == wired.end())
       throw Error(fmt::format("the command has {{{}}}, which stands for nothing", name),
-                  "there are {cloud}, {mesh}, {planes}, {output} and {folder}");
+                  "there are {cloud}, {mesh}, {planes}, {output} and {folder}; {{ and }} stand for braces");
     if (!known->second) throw Error(fmt::format("the command has {{{}}}, but that input is not wired", name));
   }
   if (found.count("output") == 0)
@@ -141,28 +158,19 @@ std::map<std::string, std::string> write_inputs(const External::In& in, const Ex
   return files;
 }
 
-std::string filled(std::string argument, const std::map<std::string, std::string>& files) {
+std::string filled(const std::string& argument, const std::map<std::string, std::string>& files) {
   std::string result;
-  for (std::size_t at = 0; at < argument.size();) {
-    bool found = false;
-    for (const auto& [name, file] : files) {
-      if (argument.compare(at, name.size() + 2, "{" + name + "}") != 0) continue;
-      result += file;
-      at += name.size() + 2;
-      found = true;
-      break;
-    }
-    if (!found) result += argument[at++];
-  }
+  for (const auto& piece : pieces(argument)) result += piece.placeholder ? files.at(piece.text) : piece.text;
   return result;
 }
 
-void keep_log(const fs::path& from, const std::string& to, const Context& context) {
-  std::ifstream file(from, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(file)), {});
+void keep_log(const ChildLog& log, const std::string& to, const Context& context) {
   const fs::path place = context.output(to);
+  std::error_code ignored;
+  if (fs::exists(place, ignored) && !fs::is_regular_file(place, ignored))
+    throw Error(fmt::format("the log '{}' is no file", place.string()), "set 'log' to another place");
   AtomicFile target(place);
-  target.write(text);
+  target.write(log.text());
   target.commit();
   context.wrote(place);
 }
@@ -188,16 +196,17 @@ External::Out External::run(const In& in, const Params& params, Context& context
   Context inner(1, std::make_shared<FolderHost>(folder.path(), context));
   const auto files = write_inputs(in, params, folder.path(), inner);
 
-  ChildProcess child{params.command, folder.path(), folder.path() / "log", params.time_limit, params.memory_limit};
+  ChildProcess child{params.command, folder.path(), params.time_limit, params.memory_limit};
   for (auto& argument : child.arguments) argument = filled(argument, files);
+  ChildLog log;
   ChildResult result;
   try {
-    result = run_child(child, context);
+    result = run_child(child, log, context);
   } catch (...) {
-    if (fs::exists(child.log)) keep_log(child.log, params.log.path, context);
+    keep_log(log, params.log.path, context);
     throw;
   }
-  keep_log(child.log, params.log.path, context);
+  keep_log(log, params.log.path, context);
   context.info(
       fmt::format("{} took {:.2f} s and {:.0f} MiB", params.command.front(), result.seconds, result.mebibytes));
 

@@ -11,12 +11,12 @@ namespace atrium::baseline {
 /// `command` is the program and its arguments, one item each, without a shell. In each argument {cloud}, {mesh} and
 /// {planes} stand for a file that holds that input in the format of the parameter of that name, {output} for the file
 /// that the program is to write, {folder} for the folder that holds them: the program's working folder, which is
-/// removed afterwards. Coordinates are relative to the inputs' origin (near zero, so that programs of single precision
-/// keep their millimetres), and the mesh that comes back has that origin again.
+/// removed afterwards. {{ and }} stand for plain braces. Coordinates are relative to the inputs' origin (near zero, so
+/// that programs of single precision keep their millimetres), and the mesh that comes back has that origin again.
 ///
-/// The program and what it starts are ended when the time limit has passed (SIGTERM, two seconds later SIGKILL) or the
-/// run is cancelled; the memory limit is the address space that each of its processes can get. What it prints is kept
-/// in `log`, also if it fails.
+/// The program and all that it started, daemons too, are ended when it ends, when the time limit has passed (SIGTERM,
+/// two seconds later SIGKILL) or the run is cancelled; the memory limit is the address space that each of its processes
+/// can get. What it prints is kept in `log`, also if it fails: the first and the last 8 MiB.
 ///
 /// Errors: no command; a placeholder that does not exist, or without its input; no {output}; inputs with different
 /// origins; a program that is missing, ends with another exit code than 0 or by a signal, or runs out of time (all with

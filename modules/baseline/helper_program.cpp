@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,12 +11,14 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <optional>
 #include <thread>
 
 #include "graph/api/error.hpp"
+#include "graph/api/helper_memory.hpp"
 
 namespace atrium::baseline {
 namespace {
@@ -92,23 +93,26 @@ class Process {
 
   bool ended() {
     int status = 0;
-    if (!status_ && ::wait4(id_, &status, WNOHANG, &usage_) == id_) status_ = status;
+    look_at_memory();
+    if (!status_ && ::waitpid(id_, &status, WNOHANG) == id_) status_ = status;
     return status_.has_value();
   }
   int status() const { return *status_; }
-  double peak_mebibytes() const { return static_cast<double>(usage_.ru_maxrss) / 1024; }
-  double resident_mebibytes() const {
-    std::ifstream file(fmt::format("/proc/{}/statm", id_));
-    double total = 0;
-    double resident = 0;
-    file >> total >> resident;
-    return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
-  }
+  // As far as it was looked at. Not wait4(2)'s: that starts with the peak of what the process was before exec.
+  double peak_mebibytes() const { return peak_; }
+  double resident_mebibytes() const { return resident_; }
 
  private:
+  void look_at_memory() {
+    std::ifstream file(fmt::format("/proc/{}/status", id_));
+    for (std::string line; std::getline(file, line);) {
+      if (line.starts_with("VmHWM:")) peak_ = std::strtod(line.c_str() + 6, nullptr) / 1024;
+      if (line.starts_with("VmRSS:")) resident_ = std::strtod(line.c_str() + 6, nullptr) / 1024;
+    }
+  }
   pid_t id_ = -1;
   std::optional<int> status_;
-  rusage usage_{};
+  double peak_ = 0, resident_ = 0;
 };
 
 std::string last_line(std::string log) {
@@ -157,6 +161,7 @@ HelperResult run_helper(const HelperProgram& helper, const Exchange& request, Co
   HelperResult result;
   result.seconds = wait_for(process, helper, context);
   result.mebibytes = process.peak_mebibytes();
+  note_helper_memory(static_cast<std::uint64_t>(result.mebibytes * 1024 * 1024));
   if (process.status() != 0) {
     const std::string end = WIFSIGNALED(process.status())
                                 ? fmt::format("was ended by the signal '{}'", ::strsignal(WTERMSIG(process.status())))

@@ -20,7 +20,7 @@ struct HelperProgram {
 struct HelperResult {
   Exchange reply;
   double seconds = 0;    ///< wall time
-  double mebibytes = 0;  ///< peak of resident memory
+  double mebibytes = 0;  ///< peak of resident memory, looked at as often; the run adds it to the node's own
 };
 
 /// The file of a helper, whether it is there or not.

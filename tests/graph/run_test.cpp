@@ -5,6 +5,7 @@
 #include <set>
 #include <thread>
 
+#include "graph/api/helper_memory.hpp"
 #include "graph/run/clocks.hpp"
 #include "graph/run/runner.hpp"
 #include "tests/graph/run_nodes.hpp"
@@ -247,6 +248,20 @@ TEST(Run, HelpersCpuTimeCounts) {
     return value();
   });
   EXPECT_GE(run(b.pipeline(), 2).nodes[0].cpu, 0.05);
+}
+
+TEST(Run, HelperProgramsMemoryCounts) {
+  PipelineBuilder b;
+  constexpr std::uint64_t huge = 1ULL << 50U;
+  add_call(b, "noting", [](Context&) {
+    note_helper_memory(huge);
+    note_helper_memory(5);
+    return value();
+  });
+  add_call(b, "plain", [](Context&) { return value(); });
+  const auto result = run(b.pipeline(), 1);
+  EXPECT_GE(result.nodes[0].peak_memory, huge);
+  EXPECT_LT(result.nodes[1].peak_memory, huge);
 }
 
 TEST(Run, ACircleIsAnError) {

@@ -31,8 +31,27 @@ TEST_P(Simulate, ScanAndTruthAreWrittenAndTheTruthIsPerfect) {
                                  "truth=scan/truth.json", "--out", "quality"});
   ASSERT_EQ(evaluated.exit_code, 0) << evaluated.err;
   const auto metrics = nlohmann::json::parse(read_text(folder / "quality/metrics.json"));
-  EXPECT_EQ(metrics["structure"]["b20mm"]["completeness"]["value"], 1.0);
-  EXPECT_EQ(metrics["structure"]["wall"]["b20mm"]["correctness"]["value"], 1.0);
+  // The truth is as good as can be, by every measure: all of it there and right, in the least buffer too.
+  for (const char* buffer : {"b20mm", "b50mm", "b100mm"}) {
+    for (const char* surface : {"", "wall", "floor", "ceiling"}) {
+      const auto& all = metrics["structure"];
+      const auto& scores = *surface == '\0' ? all[buffer] : all[surface][buffer];
+      EXPECT_EQ(scores["completeness"]["value"], 1.0) << surface << buffer;
+      EXPECT_EQ(scores["correctness"]["value"], 1.0) << surface << buffer;
+      EXPECT_LT(scores["accuracy"]["value"], 1e-6) << surface << buffer;
+    }
+  }
+  const auto& rooms = metrics["rooms"];
+  for (const auto& scores : {rooms, rooms["corners"], rooms["angles"]})
+    for (const char* share : {"precision", "recall", "f1"}) EXPECT_EQ(scores[share]["value"], 1.0) << share;
+  EXPECT_GT(rooms["iou"]["value"], 1 - 1e-6);
+  EXPECT_LT(rooms["corners"]["error"]["value"], 1e-6);
+  EXPECT_LT(rooms["angles"]["error"]["value"], 1e-3);
+  const auto& validity = metrics["validity"];
+  for (const char* flaw : {"degenerate_faces", "duplicate_faces"}) EXPECT_EQ(validity[flaw]["value"], 0.0) << flaw;
+  for (const char* flaw : {"non_manifold", "misoriented"}) EXPECT_EQ(validity["edges"][flaw]["value"], 0.0) << flaw;
+  for (const char* flaw : {"deep", "overlapping", "through_edges"})
+    EXPECT_EQ(validity["self_intersections"][flaw]["value"], 0.0) << flaw;
   EXPECT_GT(metrics["faces"]["triangles"]["value"], 12.0);
 }
 

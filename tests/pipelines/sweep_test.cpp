@@ -366,6 +366,12 @@ outputs: {cloud: scan.cloud}
   const auto result = atrium({"run", "s.yaml", "--out", "out", "--quiet"});
   EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 4) << result.err;
   EXPECT_GT(read_text(folder / "out/sheet.png").size(), 1000U);
+  // Other seeds add no pictures: the sheet keeps its size (bytes 16 to 23 of a PNG).
+  write_text(folder / "seeds.yaml", read_text(folder / "s.yaml") + "seeds: [1, 2]\n");
+  atrium({"run", "seeds.yaml", "--out", "seeds", "--quiet"});
+  const std::string more = read_text(folder / "seeds/sheet.png");
+  ASSERT_GT(more.size(), 1000U);
+  EXPECT_EQ(more.substr(16, 8), read_text(folder / "out/sheet.png").substr(16, 8));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "modules/baseline/external.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <iterator>
 #include <thread>
 
+#include "graph/api/helper_memory.hpp"
 #include "tests/unit/baseline/meshes.hpp"
 
 namespace atrium::baseline {
@@ -169,6 +171,51 @@ TEST_F(BaselineExternal, TheTimeLimitEndsTheWholeGroup) {
   EXPECT_FALSE(alive());
 }
 
+// A daemon has left the group and the session, and its parent has ended.
+TEST_F(BaselineExternal, DaemonsEndToo) {
+  const std::string daemon = "setsid sh -c 'sleep 1000 & echo $!' & wait; ";
+  const auto gone = [&] {
+    const int child = std::stoi(log());
+    std::ifstream state("/proc/" + std::to_string(child) + "/stat");
+    std::string number, name, letter;
+    state >> number >> name >> letter;
+    return child > 1 && (!state || letter == "Z" || name != "(sleep)");
+  };
+  run(script(daemon + "cp \"$1\" \"$2\"", {"{mesh}", "{output}"}));
+  EXPECT_TRUE(gone());
+  auto late = script(daemon + "sleep 1000");
+  late.time_limit = 0.5;
+  EXPECT_TRUE(contains(problem(late), "time limit"));
+  EXPECT_TRUE(gone());
+}
+
+TEST_F(BaselineExternal, DoubledBracesArePlain) {
+  run(script("echo \"$1\"; cp \"$2\" \"$3\"", {"{{mesh}} {{{{ }} {}", "{mesh}", "{output}"}));
+  EXPECT_EQ(log(), "{mesh} {{ } {}\n");
+  EXPECT_TRUE(contains(problem(command({"cp", "{mesh}", "{{output}}"})), "no {output}"));
+}
+
+TEST_F(BaselineExternal, WhatAProgramPutsInTheWayOfTheLogDoesNotBlock) {
+  run(script("rm -f log; mkfifo log; echo said; cp \"$1\" \"$2\"", {"{mesh}", "{output}"}));
+  EXPECT_EQ(log(), "said\n");
+  auto params = script("cp \"$1\" \"$2\"", {"{mesh}", "{output}"});
+  params.log.path = "pipe";
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_TRUE(contains(problem(params), "is no file"));
+  EXPECT_TRUE(contains(problem(script("mkfifo \"$1\"")), "wrote no output"));
+}
+
+TEST_F(BaselineExternal, ALongLogKeepsItsBeginningAndItsEnd) {
+  run(script("echo first; head -c 40000000 /dev/zero | tr '\\0' x; echo; echo last; cp \"$1\" \"$2\"",
+             {"{mesh}", "{output}"}));
+  const std::string text = log();
+  EXPECT_TRUE(text.starts_with("first\nxxx"));
+  EXPECT_TRUE(text.ends_with("xxx\nlast\n"));
+  EXPECT_TRUE(contains(text, "bytes are left out here]"));
+  EXPECT_LT(text.size(), 2 * (8U << 20U) + 100);
+  EXPECT_GT(text.size(), 2 * (8U << 20U) - 100);
+}
+
 TEST_F(BaselineExternal, WhoIgnoresTheFirstSignalIsKilled) {
   auto params = script("trap '' TERM; while :; do sleep 0.1; done");
   params.time_limit = 0.2;
@@ -178,6 +225,20 @@ TEST_F(BaselineExternal, WhoIgnoresTheFirstSignalIsKilled) {
 TEST_F(BaselineExternal, CancellingTheRunEndsIt) {
   host_->cancel = true;
   EXPECT_THROW(run(script("sleep 1000")), Cancelled);
+}
+
+// What a program needs is counted, and not what this one needed when it was started.
+TEST_F(BaselineExternal, TheProgramsMemoryIsNoted) {
+  const std::vector<char> large(300U << 20U, 1);
+  take_helper_memory();
+  run(script("sleep 0.2; cp \"$1\" \"$2\"", {"{mesh}", "{output}"}));
+  const auto small = take_helper_memory();
+  EXPECT_GT(small, 100U << 10U);
+  EXPECT_LT(small, 50U << 20U);
+  run(script("head -c 60M /dev/zero | (sleep 0.3; tail -c 55M | (sleep 0.3; wc -c)); cp \"$1\" \"$2\"",
+             {"{mesh}", "{output}"}));
+  EXPECT_GT(take_helper_memory(), 50U << 20U);
+  EXPECT_EQ(large[5], 1);
 }
 
 TEST_F(BaselineExternal, TheMemoryLimitHolds) {
