@@ -13,7 +13,10 @@ PolygonRoom::Out PolygonRoom::run(const In& /*in*/, const Params& p, Context& co
   Ring2 outline;
   for (int i = 0; i < n; ++i) {
     const double angle = 2 * std::numbers::pi * i / n;
-    outline.emplace_back(p.radius * std::cos(angle), p.radius * std::sin(angle));
+    // To the nanometre, so that corners which mirror each other stand at exactly one height.
+    constexpr double step = 1e-9;
+    const auto rounded = [](double x) { return std::round(x / step) * step; };
+    outline.emplace_back(rounded(p.radius * std::cos(angle)), rounded(p.radius * std::sin(angle)));
   }
   Building b;
   const int room = b.add_prism("room", 0, outline, 0, p.ceiling_height);
