@@ -13,8 +13,8 @@ PolygonRoom::Out PolygonRoom::run(const In& /*in*/, const Params& p, Context& co
   Ring2 outline;
   for (int i = 0; i < n; ++i) {
     const double angle = 2 * std::numbers::pi * i / n;
-    // To the nanometre, so that corners which mirror each other stand at exactly one height.
-    constexpr double step = 1e-9;
+    // Without their last digits, so that corners which mirror each other stand at exactly one height.
+    constexpr double step = 1e-13;
     const auto rounded = [](double x) { return std::round(x / step) * step; };
     outline.emplace_back(rounded(p.radius * std::cos(angle)), rounded(p.radius * std::sin(angle)));
   }
