@@ -175,7 +175,7 @@ SurfaceClass class_of(const JsonField& field) {
   field.fail("is '" + name + "'", "classes are wall, floor, ceiling, object");
 }
 Eigen::Vector3d direction_of(const JsonField& field) {
-  const Eigen::Vector3d direction = field.place();
+  Eigen::Vector3d direction = field.place();
   if (std::abs(direction.norm() - 1) > 1e-6) field.fail("is not of unit length");
   return direction;
 }

@@ -102,6 +102,7 @@ class Sorting {
   }
   std::vector<Eigen::Vector3d> places(const std::vector<std::uint32_t>& ring) const {
     std::vector<Eigen::Vector3d> result;
+    result.reserve(ring.size());
     for (const auto v : ring) result.push_back(building_.vertices[v]);
     return result;
   }
