@@ -1,5 +1,8 @@
 #include "modules/types/building.hpp"
 
+#include <algorithm>
+#include <string_view>
+
 namespace atrium {
 
 Building transformed(const Building& building, const Transform& transform) {
@@ -19,6 +22,30 @@ Building transformed(const Building& building, const Transform& transform) {
     turn(opening.outline_b);
   }
   return result;
+}
+
+std::vector<Fact> Building::facts(const Building& building) {
+  double area = 0;
+  double volume = 0;
+  for (const auto& room : building.rooms) {
+    area += room.area;
+    volume += room.volume;
+  }
+  const auto openings = [&](std::string_view kind) {
+    return static_cast<std::int64_t>(std::count_if(building.openings.begin(), building.openings.end(),
+                                                   [&](const auto& o) { return o.kind == kind; }));
+  };
+  const auto inferred =
+      std::count_if(building.faces.begin(), building.faces.end(), [](const auto& face) { return face.primitive < 0; });
+  return {{"building.storeys", static_cast<std::int64_t>(building.storeys.size()), ""},
+          {"building.rooms", static_cast<std::int64_t>(building.rooms.size()), ""},
+          {"building.area", area, "m2"},
+          {"building.volume", volume, "m3"},
+          {"building.faces", static_cast<std::int64_t>(building.faces.size()), ""},
+          {"building.inferred_faces", static_cast<std::int64_t>(inferred), ""},
+          {"building.doors", openings("door"), ""},
+          {"building.windows", openings("window"), ""},
+          {"building.slab_openings", openings("slab"), ""}};
 }
 
 }  // namespace atrium

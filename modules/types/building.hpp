@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "graph/api/value.hpp"
 #include "modules/types/mesh.hpp"
 #include "modules/types/plane_primitives.hpp"
 #include "modules/types/structure.hpp"
@@ -89,6 +90,9 @@ struct Building {
     return std::tuple{&Building::origin, &Building::vertices, &Building::storeys, &Building::rooms,
                       &Building::faces,  &Building::openings, &Building::walls};
   }
+  /// How many storeys, rooms, faces (inferred: by no primitive), openings of each kind, floor area and volume.
+  static std::vector<Fact> facts(const Building& building);
+
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> vertices;
   std::vector<BuildingStorey> storeys;  ///< lowest first
