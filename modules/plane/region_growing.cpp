@@ -15,15 +15,13 @@ namespace atrium::plane {
 namespace {
 
 constexpr std::uint32_t leaf_size = 32;
-constexpr double least_voxel = 0.05;
 constexpr std::uint32_t least_level = 2;  // of a voxel above the order's cells
 constexpr double least_distance = 0.002;
 constexpr double distance_per_residual = 2.5;
-constexpr int passes = 2;
 
 struct Settings {
   std::uint32_t level = least_level;
-  double cell = least_voxel / (1U << least_level);
+  double cell = 0;  ///< edge of the order's cells, metres
   VoxelGrid::Planarity planarity;
   GrowthLimits limits;
 };
@@ -34,7 +32,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The finest level, from 5 cm voxels on, at which half of the points share their voxel with enough others for a plane.
+/// The finest level, from voxels of the least size on, at which half of the points share their voxel with enough others
+/// for a plane.
 std::uint32_t automatic_level(const MortonOrder& order) {
   constexpr std::uint32_t coarsest = 8;
   constexpr std::size_t enough = 5;
@@ -96,7 +95,7 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
     throw Error("a plane needs at least 3 points, the cloud has " + std::to_string(cloud.size()),
                 "look at what the nodes before this one have filtered away");
   Settings settings;
-  if (params.voxel_size > 0) settings.cell = params.voxel_size / (1U << least_level);
+  settings.cell = (params.voxel_size > 0 ? params.voxel_size : params.min_voxel_size) / (1U << least_level);
   const MortonOrder order(cloud, settings.cell, context);
   const LocalSpacing spacing(order, context);
   if (params.voxel_size == 0) settings.level = automatic_level(order);
@@ -104,7 +103,7 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
   GrowthLimits& limits = settings.limits;
   limits.distance = params.distance;
   if (params.distance == 0) {
-    settings.planarity.max_residual = least_voxel;
+    settings.planarity.max_residual = settings.cell * (1U << least_level);
     limits.distance =
         automatic_distance(VoxelGrid(order, settings.cell, settings.level, owner, settings.planarity, context));
   }
@@ -117,9 +116,9 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
   constexpr float any_normal = -2;
   const Tolerance tolerance{static_cast<float>(limits.distance), any_normal};
   std::vector<Patch> patches;
-  for (int pass = 0; pass < passes; ++pass) {
+  for (std::int64_t pass = 0; pass < params.passes; ++pass) {
     std::vector<Patch> found = find_patches(cloud, order, spacing, owner, settings, params.cluster_distance, context);
-    context.progress((pass + 1.0) / (passes + 1));
+    context.progress((static_cast<double>(pass) + 1) / (static_cast<double>(params.passes) + 1));
     if (found.empty()) break;
     std::move(found.begin(), found.end(), std::back_inserter(patches));
     owner = assign_points(order, octree, patches, tolerance, context);

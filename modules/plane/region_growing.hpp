@@ -10,7 +10,8 @@ namespace atrium::plane {
 /// 2. A region takes neighbouring voxels whose points lie near its plane, and is refitted from the summed moments.
 ///    Neighbouring regions that are one plane are merged.
 /// 3. A region's connected components (as in plane.ransac) are patches; each point goes to the nearest patch.
-/// 4. The same again with the points that are left, for small surfaces in voxels that larger ones had spoilt.
+/// 4. The same again (`passes`) with the points that are left, for small surfaces in voxels that larger ones had
+/// spoilt.
 /// 5. Least-squares fit of each patch to its points.
 ///
 /// Normals point to the side from which the surface was seen: the mean of the points' normals where the cloud has them;
@@ -31,10 +32,12 @@ struct RegionGrowing {
   struct Params {
     int max_planes = 0;
     double voxel_size = 0;
+    double min_voxel_size = 0.05;
     double distance = 0.02;
     double cluster_distance = 0;
     double angle = 25;
     int min_points = 0;
+    std::int64_t passes = 2;
   };
   static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points; normals only turn the planes.")};
   static constexpr auto outputs =
@@ -43,9 +46,12 @@ struct RegionGrowing {
   static constexpr auto params = std::tuple{
       param(&Params::max_planes, "max_planes", count, within(0, 1e6),
             "Keep this many planes, the largest (the paper's number of primitives); 0: all."),
-      param(&Params::voxel_size, "voxel_size", metres, within(0, 10),
-            "Edge of the voxels: less than half of the thinnest wall. 0: 5 cm, doubled until half of the "
-            "points share their voxel with four others."),
+      param(
+          &Params::voxel_size, "voxel_size", metres, within(0, 10),
+          "Edge of the voxels: less than the thinnest wall. 0: min_voxel_size, doubled until half of the points share "
+          "their voxel with four others."),
+      param(&Params::min_voxel_size, "min_voxel_size", metres, within(0.001, 10),
+            "Edge of the voxels of dense scans, where voxel_size is 0."),
       param(&Params::distance, "distance", metres, within(0, 10),
             "Largest distance of a point from its plane. 0: 2.5 times the noise, which is the median residual around "
             "flat voxels."),
@@ -56,7 +62,11 @@ struct RegionGrowing {
       param(&Params::angle, "angle", degrees, within(1, 89),
             "Largest angle between a flat voxel's plane and that of the region which takes it."),
       param(&Params::min_points, "min_points", count, within(0, 1e9),
-            "Smallest plane. 0: one in 2000 of the points, at least 50.")};
+            "Smallest plane. 0: one in 2000 of the points, at least 50."),
+      param(
+          &Params::passes, "passes", count, within(1, 100),
+          "How often the points that are left are searched again: both faces of a thin wall stand in the same voxels, "
+          "and the second shows once the first is found. Ends when nothing is found.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 
