@@ -61,41 +61,42 @@ void Arrangement::split_edge(std::size_t cell, std::size_t side, const Line& lin
   insert_corner(cell, a, b, vertex);
 }
 
+int Arrangement::side_of(std::uint32_t vertex, const Line& line) const {
+  const double side = line.side(vertices_[vertex]);
+  return std::abs(side) <= tolerance_ ? 0 : side < 0 ? -1 : 1;
+}
+
+Arrangement::Cell Arrangement::part(const Cell& whole, std::size_t first, std::size_t last, std::int32_t id) {
+  Cell result;
+  for (std::size_t i = first; i != last; i = (i + 1) % whole.corners.size()) {
+    result.corners.push_back(whole.corners[i]);
+    result.lines.push_back(whole.lines[i]);
+  }
+  result.corners.push_back(whole.corners[last]);
+  result.lines.push_back(id);
+  return result;
+}
+
 void Arrangement::cut_cell(std::size_t cell, std::int32_t id, const Line& line) {
-  const auto side_of = [&](std::uint32_t v) {
-    const double side = line.side(vertices_[v]);
-    return std::abs(side) <= tolerance_ ? 0 : side < 0 ? -1 : 1;
-  };
   for (std::size_t i = 0; i < cells_[cell].corners.size(); ++i) {
     const std::uint32_t a = cells_[cell].corners[i];
     const std::uint32_t b = cells_[cell].corners[(i + 1) % cells_[cell].corners.size()];
-    if (side_of(a) * side_of(b) < 0) split_edge(cell, i++, line);
+    if (side_of(a, line) * side_of(b, line) < 0) split_edge(cell, i++, line);
   }
   // The cell is convex but for the tolerance: the corners of one side stand together.
-  Cell& whole = cells_[cell];
+  const Cell& whole = cells_[cell];
   const std::size_t n = whole.corners.size();
-  std::size_t first = n;  // the first corner on the positive side
-  for (std::size_t i = 0; i < n && first == n; ++i)
-    if (side_of(whole.corners[i]) > 0 && side_of(whole.corners[(i + n - 1) % n]) <= 0) first = i;
+  const auto side = [&](std::size_t i) { return side_of(whole.corners[i % n], line); };
+  std::size_t first = 0;  // the first corner on the positive side
+  while (first < n && !(side(first) > 0 && side(first + n - 1) <= 0)) ++first;
   if (first == n) return;
   std::size_t last = first;
-  while (side_of(whole.corners[(last + 1) % n]) > 0) last = (last + 1) % n;
+  while (side(last + 1) > 0) last = (last + 1) % n;
   const std::size_t enter = (first + n - 1) % n;  // on the line
   const std::size_t leave = (last + 1) % n;
-  if (enter == leave || side_of(whole.corners[enter]) != 0 || side_of(whole.corners[leave]) != 0) return;
-  Cell positive, negative;
-  for (std::size_t i = enter; i != leave; i = (i + 1) % n) {
-    positive.corners.push_back(whole.corners[i]);
-    positive.lines.push_back(whole.lines[i]);
-  }
-  positive.corners.push_back(whole.corners[leave]);
-  positive.lines.push_back(id);
-  for (std::size_t i = leave; i != enter; i = (i + 1) % n) {
-    negative.corners.push_back(whole.corners[i]);
-    negative.lines.push_back(whole.lines[i]);
-  }
-  negative.corners.push_back(whole.corners[enter]);
-  negative.lines.push_back(id);
+  if (enter == leave || side(enter) != 0 || side(leave) != 0) return;
+  Cell positive = part(whole, enter, leave, id);
+  Cell negative = part(whole, leave, enter, id);
   if (positive.corners.size() < 3 || negative.corners.size() < 3) return;
   const std::size_t other = cells_.size();
   cells_[cell] = std::move(positive);

@@ -36,6 +36,10 @@ class Arrangement {
   bool meets(const Cell& cell, const Line& line, double begin, double end) const;
   void split_edge(std::size_t cell, std::size_t side, const Line& line);
   void insert_corner(std::size_t cell, std::uint32_t from, std::uint32_t to, std::uint32_t vertex);
+  /// Which side of a line a vertex is on: 1, −1, or 0 within the tolerance.
+  int side_of(std::uint32_t vertex, const Line& line) const;
+  /// The corners from first to last, closed by a side on a line.
+  static Cell part(const Cell& whole, std::size_t first, std::size_t last, std::int32_t id);
   void cut_cell(std::size_t cell, std::int32_t id, const Line& line);
 
   std::vector<Eigen::Vector2d> vertices_;

@@ -147,6 +147,55 @@ void fit_sides(const std::vector<Eigen::Vector2d>& points, double pixel, Eigen::
   if (box.isEmpty()) box = rough;
 }
 
+/// Turns hidden squares that were in sight into holes. `off`: how far before the face a way begins.
+void mark_holes(Mask& mask, const PlaneFrame& frame, const Eigen::Vector3d& normal, double off, const RoomView& view,
+                const FreeSpace& space) {
+  constexpr double grazing = 0.15;  // such views of a wall see nothing through it
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x) {
+      if (mask.at(x, y) != Mask::hidden) continue;
+      const Eigen::Vector3d p = frame.to_space(mask.centre(x, y)) + normal * off;
+      std::size_t seen = 0;
+      for (const auto& place : view.places) {
+        const Eigen::Vector3d way = place - p;
+        if (way.dot(normal) < grazing * way.norm() || !space.is_free(p, place)) continue;
+        if (++seen >= view.enough) break;
+      }
+      if (seen >= view.enough) mask.at(x, y) = Mask::hole;
+    }
+}
+
+/// The rectangle that a part fills well enough.
+std::optional<FaceHole> hole_of(const std::vector<Eigen::Vector2i>& part, const Mask& mask,
+                                const std::vector<Eigen::Vector2d>& points, double pixel, double min_fill) {
+  const auto squares = core(part);
+  if (!squares || squares->isEmpty()) return std::nullopt;
+  const auto filled = std::count_if(part.begin(), part.end(), [&](const auto& p) { return squares->contains(p); });
+  const double all = (squares->sizes().x() + 1.0) * (squares->sizes().y() + 1.0);
+  if (static_cast<double>(filled) < min_fill * all) return std::nullopt;
+  FaceHole hole;
+  const Eigen::Vector2d half = Eigen::Vector2d::Constant(pixel / 2);
+  hole.box = {mask.centre(squares->min().x(), squares->min().y()) - half,
+              mask.centre(squares->max().x(), squares->max().y()) + half};
+  fit_sides(points, pixel, hole.box);
+  return hole;
+}
+
+/// Says what kind of opening a hole is, within the box of its face; false if it is too small for any.
+bool name_hole(const Openings::Params& params, bool wall, const Eigen::AlignedBox2d& face, FaceHole& hole) {
+  const Eigen::Vector2d size = hole.box.sizes();
+  if (wall ? size.x() < params.min_width || size.y() < params.min_height
+           : size.x() < params.min_slab_width || size.y() < params.min_slab_width)
+    return false;
+  hole.kind = wall ? "window" : "slab";
+  if (wall && hole.box.min().y() - face.min().y() <= params.sill_height) {
+    hole.kind = "door";
+    hole.box.min().y() = face.min().y();
+  }
+  hole.box = hole.box.intersection(face);
+  return true;
+}
+
 }  // namespace
 
 HoleFinder::HoleFinder(const Building& building, const Cloud& cloud, const Openings::Params& params, double pixel)
@@ -154,10 +203,10 @@ HoleFinder::HoleFinder(const Building& building, const Cloud& cloud, const Openi
   for (std::size_t r = 0; r < building.rooms.size(); ++r) views_.push_back(view_of(static_cast<std::int32_t>(r)));
 }
 
-HoleFinder::View HoleFinder::view_of(std::int32_t index) const {
+RoomView HoleFinder::view_of(std::int32_t index) const {
   constexpr double eye = 1.5, least_step = 0.7, most_places = 50;
   const BuildingRoom& room = building_.rooms[static_cast<std::size_t>(index)];
-  View view;
+  RoomView view;
   if (room.outline.empty()) return view;
   const double floor = room.outline[0].z();
   for (const auto& sensor : cloud_.sensors) {
@@ -204,7 +253,7 @@ bool HoleFinder::seen_through(const BuildingFace& face, const FaceHole& hole) co
 
 std::vector<FaceHole> HoleFinder::holes(std::size_t index) const {
   const BuildingFace& face = building_.faces[index];
-  const View& view = views_[static_cast<std::size_t>(face.room)];
+  const RoomView& view = views_[static_cast<std::size_t>(face.room)];
   const bool wall = face.surface == SurfaceClass::wall;
   if (view.places.empty() || (!wall && !is_level(face.plane))) return {};
   const PlaneFrame frame = upright_frame(face.plane, building_.vertices[face.outline[0]]);
@@ -229,49 +278,17 @@ std::vector<FaceHole> HoleFinder::holes(std::size_t index) const {
   // What is too small for an opening need not be looked at.
   mask.keep_wide(
       static_cast<int>((wall ? std::min(params_.min_width, params_.min_height) : params_.min_slab_width) / pixel_));
-  const double off = params_.tolerance + 2 * pixel_;
-  for (int y = 0; y < mask.height(); ++y)
-    for (int x = 0; x < mask.width(); ++x) {
-      if (mask.at(x, y) != Mask::hidden) continue;
-      const Eigen::Vector3d p = frame.to_space(mask.centre(x, y)) + face.plane.normal * off;
-      std::size_t seen = 0;
-      for (const auto& place : view.places) {
-        // Grazing views of a wall see nothing through it.
-        const Eigen::Vector3d way = place - p;
-        constexpr double grazing = 0.15;
-        if (way.dot(face.plane.normal) < grazing * way.norm() || !space_.is_free(p, place)) continue;
-        if (++seen >= view.enough) break;
-      }
-      if (seen >= view.enough) mask.at(x, y) = Mask::hole;
-    }
+  mark_holes(mask, frame, face.plane.normal, params_.tolerance + 2 * pixel_, view, space_);
   std::vector<FaceHole> result;
   for (auto part = mask.next_part(); !part.empty(); part = mask.next_part()) {
-    const auto squares = core(part);
-    if (!squares || squares->isEmpty()) continue;
-    const auto filled = std::count_if(part.begin(), part.end(), [&](const auto& p) { return squares->contains(p); });
-    const double all = (squares->sizes().x() + 1.0) * (squares->sizes().y() + 1.0);
-    if (static_cast<double>(filled) < params_.min_fill * all) continue;
-    FaceHole hole;
-    hole.frame = frame;
-    const Eigen::Vector2d half = Eigen::Vector2d::Constant(pixel_ / 2);
-    hole.box = {mask.centre(squares->min().x(), squares->min().y()) - half,
-                mask.centre(squares->max().x(), squares->max().y()) + half};
-    fit_sides(points, pixel_, hole.box);
-    const Eigen::Vector2d size = hole.box.sizes();
-    if (wall ? size.x() < params_.min_width || size.y() < params_.min_height
-             : size.x() < params_.min_slab_width || size.y() < params_.min_slab_width)
-      continue;
-    hole.kind = wall ? "window" : "slab";
-    if (wall && hole.box.min().y() - box.min().y() <= params_.sill_height) {
-      hole.kind = "door";
-      hole.box.min().y() = box.min().y();
-    }
-    hole.box = hole.box.intersection(box);
-    if (!seen_through(face, hole)) continue;
+    auto hole = hole_of(part, mask, points, pixel_, params_.min_fill);
+    if (!hole) continue;
+    hole->frame = frame;
+    if (!name_hole(params_, wall, box, *hole) || !seen_through(face, *hole)) continue;
     for (const auto& [u, v] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
-      hole.outline.push_back(frame.to_space(
-          {u == 0 ? hole.box.min().x() : hole.box.max().x(), v == 0 ? hole.box.min().y() : hole.box.max().y()}));
-    result.push_back(std::move(hole));
+      hole->outline.push_back(frame.to_space(
+          {u == 0 ? hole->box.min().x() : hole->box.max().x(), v == 0 ? hole->box.min().y() : hole->box.max().y()}));
+    result.push_back(std::move(*hole));
   }
   return result;
 }

@@ -17,6 +17,12 @@ struct FaceHole {
   std::vector<Eigen::Vector3d> outline;  ///< counter-clockwise seen from the room
 };
 
+/// From where the faces of a room were seen.
+struct RoomView {
+  std::vector<Eigen::Vector3d> places;
+  std::size_t enough = 1;  ///< how many of them must see a square
+};
+
 /// Finds the holes of one face after the other (see layout.openings).
 class HoleFinder {
  public:
@@ -25,11 +31,7 @@ class HoleFinder {
   std::vector<FaceHole> holes(std::size_t face) const;
 
  private:
-  struct View {
-    std::vector<Eigen::Vector3d> places;
-    std::size_t enough = 1;  ///< how many of them must see a square
-  };
-  View view_of(std::int32_t room) const;
+  RoomView view_of(std::int32_t room) const;
   bool seen_through(const BuildingFace& face, const FaceHole& hole) const;
 
   const Building& building_;
@@ -37,7 +39,7 @@ class HoleFinder {
   const Openings::Params& params_;
   double pixel_;
   FreeSpace space_;
-  std::vector<View> views_;  // per room
+  std::vector<RoomView> views_;  // per room
 };
 
 }  // namespace atrium::layout

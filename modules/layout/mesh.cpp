@@ -67,6 +67,7 @@ class Meshing {
       polygon.holes.push_back(flat(hole, frame));
     }
     std::vector<std::uint32_t> vertices;  // of one class: a corner's colour is that of its face
+    vertices.reserve(corners.size());
     for (const auto c : corners) vertices.push_back(shell_vertex(c, face.surface));
     for (const auto& t : clip_ears(polygon))
       shell_.triangle(vertices[t[0]], vertices[t[1]], vertices[t[2]], face.surface, face.storey, f);
@@ -87,11 +88,13 @@ class Meshing {
 
   PlanRing flat(const std::vector<std::uint32_t>& ring, const PlaneFrame& frame) const {
     PlanRing result;
+    result.reserve(ring.size());
     for (const auto i : ring) result.push_back(frame.to_plane(building_.vertices[i]));
     return result;
   }
   static PlanRing flat(const std::vector<Eigen::Vector3d>& ring, const PlaneFrame& frame) {
     PlanRing result;
+    result.reserve(ring.size());
     for (const auto& p : ring) result.push_back(frame.to_plane(p));
     return result;
   }

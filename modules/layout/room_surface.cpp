@@ -191,10 +191,12 @@ class Builder {
         if (off_chord(before, here, next) > straight) outline.push_back(here);
       }
       const double area = signed_area(ring, places, Eigen::Vector3d::UnitZ());
-      if (area < 0) surface_.holes.push_back(std::move(outline));
-      if (area <= most) continue;
-      most = area;
-      surface_.outline = std::move(outline);
+      if (area < 0) {
+        surface_.holes.push_back(std::move(outline));
+      } else if (area > most) {
+        most = area;
+        surface_.outline = std::move(outline);
+      }
     }
   }
 

@@ -84,6 +84,7 @@ class Storey {
   static std::pair<int, int> ends_of(std::vector<std::pair<int, int>> rows) {
     constexpr double full = 0.4;
     std::vector<int> counts;
+    counts.reserve(rows.size());
     for (const auto& row : rows) counts.push_back(row.first);
     std::nth_element(counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2), counts.end());
     const double least = full * counts[counts.size() / 2];
