@@ -43,6 +43,7 @@ class Merging {
     std::stable_sort(order.begin(), order.end(),
                      [&](auto a, auto b) { return planes_[a].moments.count > planes_[b].moments.count; });
     std::vector<Group> groups;
+    groups.reserve(order.size());
     for (const auto i : order)
       groups.push_back({planes_[i].plane, planes_[i].moments, planes_[i].rms_to(planes_[i].plane), {i}});
     for (std::size_t before = groups.size() + 1; groups.size() < before;) {

@@ -157,6 +157,7 @@ RegisterPositions::Out RegisterPositions::run(const In& in, const Params& params
   }
   const std::vector<Patch> patches = patches_of(cloud, params, context);
   std::vector<MeasuredPlane> measured;
+  measured.reserve(patches.size());
   for (const auto& patch : patches) measured.push_back(patch.measured);
   const double noise = mean_residual(measured);
   std::vector<Eigen::Vector3d> shifts(cloud.sensors.size(), Eigen::Vector3d::Zero());

@@ -10,7 +10,7 @@ Adjacency::Contents Adjacency::contents(const Adjacency& adjacency) {
   return {boost::num_vertices(adjacency.graph), adjacency.edges()};
 }
 
-Adjacency Adjacency::from_contents(Contents contents) {
+Adjacency Adjacency::from_contents(const Contents& contents) {
   Adjacency adjacency{Graph(contents.first)};
   for (const Edge& edge : contents.second) {
     if (edge.a >= contents.first || edge.b >= contents.first)

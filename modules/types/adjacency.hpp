@@ -27,7 +27,7 @@ struct Adjacency {
   /// Number of vertices and edges: a Boost graph has no fields to list.
   using Contents = std::pair<std::uint64_t, std::vector<Edge>>;
   static Contents contents(const Adjacency& adjacency);
-  static Adjacency from_contents(Contents contents);
+  static Adjacency from_contents(const Contents& contents);
 
   /// All edges with a < b, ascending: the order in which algorithms walk them.
   std::vector<Edge> edges() const;
