@@ -5,6 +5,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -92,8 +93,16 @@ void RunFolder::lock() {
   throw FolderError("another run is writing into " + folder_.string(), "choose another folder with --out");
 }
 
+bool holds_only_unfinished(const fs::path& folder) {
+  const fs::directory_iterator entries(folder);
+  return std::all_of(fs::begin(entries), fs::end(entries), [](const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    return name.starts_with('.') && name.ends_with(".part");
+  });
+}
+
 void RunFolder::remove_earlier_run() {
-  if (fs::is_empty(folder_)) return;
+  if (holds_only_unfinished(folder_)) return;
   if (fs::exists(folder_ / sweep_mark))
     throw FolderError(folder_.string() + " is the folder of a sweep", "choose another folder with --out");
   const auto manifest = read_manifest(folder_);

@@ -13,6 +13,9 @@ void write_file(const std::filesystem::path& target, const std::string& text, bo
 /// The file that marks the folder of a sweep.
 inline constexpr std::string_view sweep_mark = "sweep.json";
 
+/// Whether a folder holds nothing but what a killed process left of files that it was writing (AtomicFile).
+bool holds_only_unfinished(const std::filesystem::path& folder);
+
 /// The folder of one run. It is refused if it holds anything but an earlier run, whose files are removed first (those
 /// that its manifest lists and that still have the size listed, those that it planned to write when it was killed, and
 /// unfinished ones; unless this pipeline reads them): what is in the folder

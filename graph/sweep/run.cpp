@@ -59,7 +59,7 @@ class SweepFolder {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw FolderError("cannot make the folder " + folder.string() + ": " + error.message());
-    if (!fs::is_empty(folder, error) && !fs::exists(folder / sweep_mark))
+    if (!fs::exists(folder / sweep_mark) && !holds_only_unfinished(folder))
       throw FolderError(folder.string() + " is not empty and is not the folder of a sweep",
                         "choose another folder with --out, or empty it");
     lock_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
