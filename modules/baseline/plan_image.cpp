@@ -85,6 +85,7 @@ std::vector<int> extents_of(const PlanImage& components, std::size_t count) {
       if (const auto k = components.at(x, y); k > 0)
         boxes[static_cast<std::size_t>(k - 1)].extend(Eigen::Vector2i(x, y));
   std::vector<int> extents;
+  extents.reserve(count);
   for (const auto& box : boxes) extents.push_back(box.isEmpty() ? 0 : box.sizes().maxCoeff() + 1);
   return extents;
 }
