@@ -2,48 +2,36 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
+#include <utility>
 
 #include "modules/scene/texture_frames.hpp"
 #include "modules/scene/texture_painting.hpp"
+#include "modules/scene/view_cells.hpp"
 
 namespace atrium::scene {
 namespace {
 
-constexpr std::size_t chunk_size = 65536, block_size = 1024;
-
-/// Whether any place in the box can lie over the image (a test of intervals, so some others pass, too).
-bool may_be_over(const TextureView& view, const Eigen::AlignedBox3f& box) {
-  const Eigen::Vector3f centre = box.center(), half = box.sizes() / 2;
-  const auto meets = [&](float value, const Eigen::Vector3f& axis, float low, float high) {
-    const float slack = axis.cwiseAbs().dot(half) * 1.001F + 1e-3F * (high - low);
-    return value + slack >= low && value - slack <= high;
-  };
-  return meets(view.height(centre), view.normal, -view.distance, view.reach) &&
-         meets(view.column(centre), view.across, 0, static_cast<float>(view.width)) &&
-         meets(view.row(centre), view.down, 0, static_cast<float>(view.tall));
-}
-
 /// For each image the points over it, in ascending order.
 std::vector<std::vector<std::uint32_t>> points_over_all(const std::vector<TextureView>& views, const Cloud& cloud,
                                                         const Context& context) {
+  constexpr std::size_t chunk_size = 65536;
   using Lists = std::vector<std::vector<std::uint32_t>>;
+  const ViewCells cells(views, context);
   std::vector<Lists> chunks((cloud.size() + chunk_size - 1) / chunk_size, Lists(views.size()));
   context.parallel_chunks(cloud.size(), chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    for (std::size_t first = begin; first < end; first += block_size) {
-      const std::size_t last = std::min(first + block_size, end);
-      Eigen::AlignedBox3f box;
-      for (std::size_t i = first; i < last; ++i) box.extend(cloud.points[i]);
-      for (std::size_t v = 0; v < views.size(); ++v)
-        if (may_be_over(views[v], box)) points_over(views[v], cloud, first, last, chunks[chunk][v]);
-    }
+    for (std::size_t i = begin; i < end; ++i)
+      for (const std::uint32_t v : cells.views_at(cloud.points[i]))
+        if (is_over(views[v], cloud, i)) chunks[chunk][v].push_back(static_cast<std::uint32_t>(i));
   });
   Lists result(views.size());
   context.parallel_for(
       views.size(),
       [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v)
-          for (auto& lists : chunks) result[v].insert(result[v].end(), lists[v].begin(), lists[v].end());
+          for (auto& lists : chunks) {
+            const auto list = std::exchange(lists[v], {});
+            result[v].insert(result[v].end(), list.begin(), list.end());
+          }
       },
       1);
   return result;

@@ -139,19 +139,14 @@ TextureView::TextureView(const FaceTexture& image, const Eigen::Vector3d& shift,
     for (const auto& sensor : cloud.sensors) seen.push_back(height(sensor) > 0);
 }
 
-void points_over(const TextureView& view, const Cloud& cloud, std::size_t begin, std::size_t end,
-                 std::vector<std::uint32_t>& result) {
-  const auto columns = static_cast<float>(view.width), rows = static_cast<float>(view.tall);
-  for (std::size_t i = begin; i < end; ++i) {
-    const Eigen::Vector3f& p = cloud.points[i];
-    const float height = view.height(p);
-    if (!(height >= -view.distance && height <= view.reach)) continue;
-    const float x = view.column(p), y = view.row(p);
-    if (!(x >= 0 && x < columns && y >= 0 && y < rows)) continue;
-    if (!view.seen.empty() && !view.seen[cloud.source.empty() ? 0 : cloud.source[i]]) continue;
-    if (height <= view.distance && cloud.has_normals() && cloud.normals[i].dot(view.normal) < least_cosine) continue;
-    result.push_back(static_cast<std::uint32_t>(i));
-  }
+bool is_over(const TextureView& view, const Cloud& cloud, std::size_t point) {
+  const Eigen::Vector3f& p = cloud.points[point];
+  const float height = view.height(p);
+  if (!(height >= -view.distance && height <= view.reach)) return false;
+  const float x = view.column(p), y = view.row(p);
+  if (!(x >= 0 && x < static_cast<float>(view.width) && y >= 0 && y < static_cast<float>(view.tall))) return false;
+  if (!view.seen.empty() && !view.seen[cloud.source.empty() ? 0 : cloud.source[point]]) return false;
+  return height > view.distance || !cloud.has_normals() || cloud.normals[point].dot(view.normal) >= least_cosine;
 }
 
 bool paint(const TextureView& view, const Cloud& cloud, const std::vector<std::uint32_t>& points, FaceTexture& image) {

@@ -24,9 +24,8 @@ struct TextureView {
   std::vector<bool> seen;   ///< per sensor: whether it stands before the plane; empty: unknown
 };
 
-/// Appends those of the points [begin, end) that lie over the image and are not known to be of the plane's other side.
-void points_over(const TextureView& view, const Cloud& cloud, std::size_t begin, std::size_t end,
-                 std::vector<std::uint32_t>& result);
+/// Whether the point lies over the image and is not known to be of the plane's other side.
+bool is_over(const TextureView& view, const Cloud& cloud, std::size_t point);
 
 /// Gives the image the colours of these points (all that lie over it, in ascending order). False, and no pixels, if
 /// none of them gives a colour.
