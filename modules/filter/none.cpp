@@ -1,0 +1,7 @@
+#include "modules/filter/none.hpp"
+
+namespace atrium::filter {
+
+None::Out None::run(const In& in, const Params& /*params*/, Context& /*context*/) { return {in.cloud}; }
+
+}  // namespace atrium::filter

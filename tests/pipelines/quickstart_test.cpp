@@ -1,0 +1,59 @@
+// share/quickstart as a newcomer starts it, but for the packages and the build, which are there.
+#include <gtest/gtest.h>
+
+#include "tests/pipelines/steps.hpp"
+
+namespace atrium::test {
+namespace {
+
+class Quickstart : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* folder : {"share", "build/bin"}) fs::create_directories(checkout / folder);
+    fs::create_directory_symlink(source / "pipelines", checkout / "pipelines");
+    fs::copy_file(source / "share/quickstart", checkout / "share/quickstart");
+    write_program("share/install-packages", "exit 0");
+    write_program("share/build", "exit 0");
+    write_program("build/bin/atrium", "exec '" ATRIUM_PROGRAM "' \"$@\"");
+  }
+  void write_program(const fs::path& name, const std::string& command) {
+    write_text(checkout / name, "#!/bin/sh\n" + command + "\n");
+    fs::permissions(checkout / name, fs::perms::owner_all);
+  }
+  ProcessResult start(std::vector<std::string> words) {
+    words.insert(words.begin(), (checkout / "share/quickstart").string());
+    ProcessOptions options;
+    options.folder = checkout.path();
+    options.timeout = 120;
+    return run_process(words, options);
+  }
+  TemporaryFolder checkout;
+};
+
+TEST_F(Quickstart, SaysWhatItFoundAndWhereItIs) {
+  ASSERT_EQ(run_pipeline_file("simulate.yaml", {"scene.type=synth.room", "points=50000"}, checkout / "scan").exit_code,
+            0);
+  const auto result = start({"scan/scan.ply"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::vector<std::string> lines;
+  std::istringstream text(result.out);
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  ASSERT_GE(lines.size(), 3U) << result.out;
+  EXPECT_TRUE(lines[1].starts_with("1 closed rooms of ")) << lines[1];
+  EXPECT_EQ(lines[1].find("  "), std::string::npos) << "a number is missing: " << lines[1];
+  for (const char* file : {"building.json", "floorplan.svg", "floorplan.dxf", "floorplan.geojson", "shell.ply",
+                           "structure.ply", "scene.glb", "scene.ply", "scene_without_ceiling.ply"}) {
+    EXPECT_NE(result.out.find(fs::path(file).extension()), std::string::npos) << file;
+    EXPECT_TRUE(fs::exists(checkout / "runs/scan-scan" / file)) << file;
+  }
+}
+
+TEST_F(Quickstart, EndsWithTheCodeOfWhatFails) {
+  EXPECT_EQ(start({"nowhere.ply"}).exit_code, 1);
+  EXPECT_EQ(start({"one", "two"}).exit_code, 2);
+  write_text(checkout / "scan.ply", "no scan");
+  EXPECT_NE(start({"scan.ply"}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace atrium::test

@@ -1,0 +1,15 @@
+#include "modules/filter/none.hpp"
+
+#include <gtest/gtest.h>
+
+namespace atrium::filter {
+namespace {
+
+TEST(FilterNone, HandsItsInputOnWithoutACopy) {
+  Context context;
+  const auto cloud = input(Cloud{});
+  EXPECT_EQ(None::run({cloud}, {}, context).cloud, cloud);
+}
+
+}  // namespace
+}  // namespace atrium::filter

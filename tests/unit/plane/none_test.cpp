@@ -1,0 +1,15 @@
+#include "modules/plane/none.hpp"
+
+#include <gtest/gtest.h>
+
+namespace atrium::plane {
+namespace {
+
+TEST(PlaneNone, HandsItsInputOnWithoutACopy) {
+  Context context;
+  const auto planes = input(PlanePrimitives{});
+  EXPECT_EQ(None::run({planes}, {}, context).planes, planes);
+}
+
+}  // namespace
+}  // namespace atrium::plane
