@@ -13,6 +13,7 @@ namespace atrium::filter {
 namespace {
 
 constexpr std::size_t chunk_size = 4096;
+constexpr std::size_t sample_size = std::size_t{1} << 17U;
 
 /// The largest distance that is normal: mean + deviations · σ over the distances that are at most `limit`.
 double next_limit(const std::vector<float>& distances, double limit, double deviations, const Context& context) {
@@ -52,16 +53,15 @@ Outliers::Out Outliers::run(const In& in, const Params& params, Context& context
       context.warn(fmt::format("{} points are too few to find outliers by their {} neighbours", cloud.size(), k));
     return {cloud, 0};
   }
-  const std::vector<float> distances = mean_distances(cloud.points, k, context);
+  const Spacing spacing(cloud.points, k, context);
+  const std::vector<float> distances = spacing.sample(sample_size, context);
   double limit = std::numeric_limits<double>::infinity();
   for (int round = 0; round < 10; ++round) {
     const double next = next_limit(distances, limit, params.deviations, context);
     if (!(next < limit / 2)) break;
     limit = next;
   }
-  std::vector<std::uint8_t> keep(cloud.size());
-  for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = static_cast<double>(distances[i]) <= limit ? 1 : 0;
-  Out out{kept(cloud, keep)};
+  Out out{kept(cloud, spacing.at_most(limit, context))};
   out.removed = static_cast<std::int64_t>(cloud.size() - out.cloud.size());
   return out;
 }

@@ -10,7 +10,8 @@ namespace atrium::filter {
 /// 2008): the paper's noise reduction and the 'statistical treatment' of its non-structural points. A point is an
 /// outlier if its mean distance to its `neighbours` nearest points lies more than `deviations` standard deviations
 /// above the mean of that distance over the cloud. A few points far beyond all others would spoil mean and deviation
-/// for the rest: where leaving the outliers out more than halves that limit, both are taken again without them.
+/// for the rest: where leaving the outliers out more than halves that limit, both are taken again without them. Of
+/// clouds of more than 520 000 points mean and deviation are those of 130 000 or more, spread evenly over the scene.
 ///
 /// Points keep their order and columns. A cloud of no more points than `neighbours` is handed on whole, with a warning
 /// if it is not empty. Evenly spaced or coincident points have no outliers.

@@ -16,13 +16,13 @@ constexpr std::size_t fan = PointTree::fan;
 float reach_after(float d, float step) { return (d + step) * 1.0001F + 1e-12F; }
 
 /// One thread's work: the leaves in their order, each point starting from what the one before has found.
-class Spacing {
+class LeafSearch {
  public:
-  Spacing(const std::vector<Eigen::Vector3f>& points, const PointTree& tree, std::size_t k)
+  LeafSearch(const std::vector<Eigen::Vector3f>& points, const PointTree& tree, std::size_t k)
       : points_(points), tree_(tree), k_(k), most_(32 + k / 4) {}
 
-  /// Writes the mean distance of each point of a leaf to result[its index].
-  void leaf(std::size_t l, std::vector<float>& result) {
+  /// Writes the mean distance of each point of a leaf, in their order.
+  void leaf(std::size_t l, float* result) {
     const std::size_t begin = l * fan, end = std::min(begin + fan, tree_.size());
     Eigen::AlignedBox3f box;
     for (std::size_t i = begin; i < end; ++i) box.extend(at(i));
@@ -31,12 +31,21 @@ class Spacing {
     for (std::size_t i = begin + 1; i < end; ++i)
       if (from_middle(i) < from_middle(first)) first = i;
     const bool alone = tree_.nodes_near(Eigen::AlignedBox3f(at(first)), reach(at(first)), most_, near_);
-    result[tree_.order()[first]] = alone ? select(at(first)) : search(at(first));
+    result[first - begin] = alone ? select(at(first)) : search(at(first));
     float widest = 0;
     for (std::size_t i = begin; i < end; ++i) widest = std::max(widest, (at(i) - at(first)).norm());
     const bool shared = tree_.nodes_near(box, reach_after(reach(at(first)), widest), most_, near_);
     for (std::size_t i = begin; i < end; ++i)
-      if (i != first) result[tree_.order()[i]] = shared ? select(at(i)) : search(at(i));
+      if (i != first) result[i - begin] = shared ? select(at(i)) : search(at(i));
+  }
+  /// Marks the points of a leaf whose mean distance is at most the limit.
+  void leaf_at_most(std::size_t l, double limit, std::vector<std::uint8_t>& marks) {
+    // k others nearer than this have a mean below the limit, however it is rounded.
+    const float surely = static_cast<float>(limit * (1 - 1e-5));
+    for (std::size_t i = l * fan; i < std::min(l * fan + fan, tree_.size()); ++i) {
+      const bool near = tree_.has_within(at(i), surely, k_ + 1, l) || static_cast<double>(search(at(i))) <= limit;
+      marks[tree_.order()[i]] = near ? 1 : 0;
+    }
   }
 
  private:
@@ -105,16 +114,37 @@ class Spacing {
 
 }  // namespace
 
-std::vector<float> mean_distances(const std::vector<Eigen::Vector3f>& points, std::size_t k, const Context& context) {
-  const PointTree tree(points, context);
-  std::vector<float> result(points.size());
-  context.parallel_for((points.size() + fan - 1) / fan,
+Spacing::Spacing(const std::vector<Eigen::Vector3f>& points, std::size_t k, const Context& context)
+    : points_(points), k_(k), tree_(points, context) {}
+
+std::vector<float> Spacing::sample(std::size_t wanted, const Context& context) const {
+  const std::size_t step = points_.size() / 4 < wanted ? 1 : points_.size() / std::max<std::size_t>(1, wanted);
+  const std::size_t leaves = (points_.size() + fan - 1) / fan;
+  const std::size_t chosen = (leaves + step - 1) / step;
+  // Any one of each few leaves: the first of a node is not like the others, strays gather at the ends of the tree's
+  // cuts.
+  const auto leaf_of = [&](std::size_t s) { return s * step + mix_seed(1, s) % std::min(step, leaves - s * step); };
+  std::vector<float> result(chosen * fan);
+  context.parallel_for(
+      chosen,
+      [&](std::size_t begin, std::size_t end) {
+        LeafSearch search(points_, tree_, k_);
+        for (std::size_t s = begin; s < end; ++s) search.leaf(leaf_of(s), result.data() + s * fan);
+      },
+      512);
+  if (leaf_of(chosen - 1) + 1 == leaves) result.resize(result.size() - (leaves * fan - points_.size()));
+  return result;
+}
+
+std::vector<std::uint8_t> Spacing::at_most(double limit, const Context& context) const {
+  std::vector<std::uint8_t> marks(points_.size());
+  context.parallel_for((points_.size() + fan - 1) / fan,
                        [&](std::size_t begin, std::size_t end) {
-                         Spacing spacing(points, tree, k);
-                         for (std::size_t l = begin; l < end; ++l) spacing.leaf(l, result);
+                         LeafSearch search(points_, tree_, k_);
+                         for (std::size_t l = begin; l < end; ++l) search.leaf_at_most(l, limit, marks);
                        },
                        512);
-  return result;
+  return marks;
 }
 
 }  // namespace atrium::filter

@@ -309,6 +309,44 @@ void PointTree::squared_distances(const Eigen::Vector3f& position, float max_dis
   result.resize(count);
 }
 
+std::size_t PointTree::count_in(std::size_t leaf, const Eigen::Vector3f& position, float limit) const {
+  std::array<float, fan> d;
+  point_distances(leaves_[leaf], position, d.data());
+  std::size_t count = 0;
+  for (const float squared : d) count += squared <= limit ? 1 : 0;  // behind the last point they are infinite
+  return count;
+}
+
+/// Points within reach below a node, but for those below the node `but` of the lowest level; stops at `enough`.
+std::size_t PointTree::count_below(std::size_t level, std::size_t node, const Eigen::Vector3f& position, float limit,
+                                   std::size_t enough, std::size_t but) const {
+  if (level == 0 && node == but) return 0;
+  std::array<float, fan> distance;
+  box_distances(levels_[level][node], position, position, distance.data());
+  std::size_t count = 0;
+  for (std::size_t c = 0; c < fan && count < enough; ++c) {
+    if (!(distance[c] <= limit)) continue;
+    count += level > 0 ? count_below(level - 1, node * fan + c, position, limit, enough - count, but)
+                       : count_in(node * fan + c, position, limit);
+  }
+  return count;
+}
+
+bool PointTree::has_within(const Eigen::Vector3f& position, float max_distance, std::size_t count,
+                           std::size_t near) const {
+  if (count == 0) return true;
+  if (order_.size() < count || !(max_distance >= 0)) return false;
+  const float limit = square(max_distance);
+  std::size_t found = 0;
+  for (std::size_t c = 0; c < fan; ++c) {
+    const std::size_t leaf = near ^ c;  // the others of its node
+    if (leaf >= leaves_.size()) continue;
+    found += count_in(leaf, position, limit);
+    if (found >= count) return true;
+  }
+  return found + count_below(levels_.size() - 1, 0, position, limit, count - found, near / fan) >= count;
+}
+
 bool PointTree::nearest(const Eigen::Vector3f& position, Neighbour& result, float max_distance) const {
   if (order_.empty() || !(max_distance >= 0)) return false;
   One search{position, {0xffffffffU, square(max_distance)}};

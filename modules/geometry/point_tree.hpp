@@ -51,6 +51,10 @@ class PointTree {
   void squared_distances(const Eigen::Vector3f& position, float max_distance, const std::vector<std::uint32_t>& nodes,
                          std::vector<float>& result) const;
 
+  /// Whether at least `count` points (a point of the cloud counts itself) lie within max_distance of a position near
+  /// leaf `near`: the points there are looked at first, so where there are plenty the answer is quick.
+  bool has_within(const Eigen::Vector3f& position, float max_distance, std::size_t count, std::size_t near) const;
+
   static constexpr std::size_t fan = 8;
   /// Leaf l holds the points order()[fan · l] … order()[fan · l + fan - 1].
   struct Leaf {
@@ -65,6 +69,9 @@ class PointTree {
   void build(const std::vector<Eigen::Vector3f>& points, const Context& context);
   bool gather(const Eigen::AlignedBox3f& box, float limit, std::size_t most, std::size_t level, std::size_t node,
               std::vector<std::uint32_t>& result) const;
+  std::size_t count_in(std::size_t leaf, const Eigen::Vector3f& position, float limit) const;
+  std::size_t count_below(std::size_t level, std::size_t node, const Eigen::Vector3f& position, float limit,
+                          std::size_t enough, std::size_t but) const;
   template <class Search>
   void visit(Search& search, std::size_t level, std::size_t node) const;
 

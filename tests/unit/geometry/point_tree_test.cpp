@@ -50,6 +50,9 @@ void expect_right(const std::vector<Eigen::Vector3f>& points, const std::vector<
       ASSERT_EQ(found, std::vector<Neighbour>(expected.begin(), expected.begin() + std::min(k, expected.size())));
     }
     expect_right_squares(tree, q, reach, expected);
+    for (const std::size_t near : {std::size_t{0}, points.size() / 2 / PointTree::fan, points.size()})
+      for (const std::size_t count : {expected.size() / 2, expected.size(), expected.size() + 1})
+        ASSERT_EQ(tree.has_within(q, reach, count, near), count <= expected.size()) << count;
     Neighbour nearest{};
     ASSERT_EQ(tree.nearest(q, nearest, reach), !expected.empty());
     if (!expected.empty()) {
