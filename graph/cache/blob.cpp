@@ -80,4 +80,12 @@ std::string hash_of_file(const std::filesystem::path& file) {
   return digest_of(map.data(), map.size());
 }
 
+std::string hash_if_readable(const std::filesystem::path& file) {
+  try {
+    return hash_of_file(file);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 }  // namespace atrium

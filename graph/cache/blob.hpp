@@ -26,5 +26,7 @@ void check_blob(const std::filesystem::path& file);
 
 /// The hash of a file's bytes. Throws Error if it cannot be read.
 std::string hash_of_file(const std::filesystem::path& file);
+/// The same; "" if it cannot be read.
+std::string hash_if_readable(const std::filesystem::path& file);
 
 }  // namespace atrium

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "graph/cache/upkeep.hpp"
@@ -24,7 +25,8 @@ struct Options {
   std::string out;
   int threads = 0;
   std::int64_t max_failures = 0;
-  bool fail_fast = false, quiet = false, json = false, no_hashes = false;
+  bool fail_fast = false, quiet = false, json = false, no_hashes = false, isolate = false;
+  double timeout = 0;
   CacheChoice cache;
   std::string memory;
 };
@@ -161,8 +163,9 @@ int print_results(const Options& options, const SweepFile& sweep, const SweepPla
   std::size_t failures = 0;
   std::size_t cancelled = 0;
   for (const auto& variant : result.variants) {
-    failures += variant.status == NodeStatus::failed ? 1 : 0;
-    cancelled += variant.status == NodeStatus::cancelled ? 1 : 0;
+    const bool bad = variant.status == VariantStatus::failed || variant.status == VariantStatus::crashed;
+    failures += bad ? 1 : 0;
+    cancelled += !bad && variant.status != VariantStatus::ok ? 1 : 0;
   }
   if (!unknown.empty()) return failed;
   if (failures == 0 && cancelled == 0) return ok;
@@ -170,17 +173,16 @@ int print_results(const Options& options, const SweepFile& sweep, const SweepPla
 }
 
 void print_summary(const SweepResult& result, const fs::path& folder) {
-  std::size_t count[4] = {};
+  std::map<VariantStatus, std::size_t> count;
   std::size_t reused = 0;
   for (const auto& variant : result.variants) {
-    ++count[static_cast<std::size_t>(variant.status)];
+    ++count[variant.status];
     reused += variant.reused ? 1 : 0;
   }
-  std::string text = counted(count[static_cast<std::size_t>(NodeStatus::ok)], "variant") + " done";
+  std::string text = counted(count[VariantStatus::ok], "variant") + " done";
   if (reused > 0) text += fmt::format(" ({} before)", reused);
-  for (const auto status : {NodeStatus::failed, NodeStatus::cancelled})
-    if (count[static_cast<std::size_t>(status)] > 0)
-      text += fmt::format(", {} {}", count[static_cast<std::size_t>(status)], name_of(status));
+  for (const auto& [status, number] : count)
+    if (status != VariantStatus::ok) text += fmt::format(", {} {}", number, name_of(status));
   if (result.known > 0) text += fmt::format("; {} of {} by the cache", result.known, counted(result.nodes, "node"));
   fmt::print(stderr, "{} in {:.2f} s; see {}\n", text, result.wall, folder.string());
 }
@@ -202,6 +204,9 @@ int run(const Options& options) {
   if (!options.memory.empty()) sweep_options.memory = read_size(options.memory);
   if (options.max_failures > 0) sweep_options.max_failures = static_cast<std::size_t>(options.max_failures);
   if (options.fail_fast) sweep_options.max_failures = 1;
+  if (options.isolate)
+    sweep_options.isolation = {own_program(), worker_arguments(options.cache, cache.get(), options.no_hashes),
+                               options.timeout};
   SweepResult result;
   if (!options.quiet) print_notes(loaded.load.plan);
   try {
@@ -242,6 +247,7 @@ void add_sweep(CLI::App& app, int& exit_code) {
   add_common(*planned, *options);
   add_cache_options(*planned, options->cache);
   planned->callback([options, &exit_code] { exit_code = plan(*options); });
+  add_sweep_work(*verb, exit_code);
   auto* ran = verb->add_subcommand("run", "Runs the variants that are not done; prints their table.");
   add_common(*ran, *options);
   ran->add_option("-j,--threads", options->threads, "threads; 1: one node after the other (default: one per core)")
@@ -255,6 +261,13 @@ void add_sweep(CLI::App& app, int& exit_code) {
   ran->add_option("--mem", options->memory,
                   "a node waits while what runs already may need so much memory with it, as far as it is known from "
                   "earlier runs: 8 GB");
+  ran->add_flag(
+      "--isolate", options->isolate,
+      "each variant in a process of its own: one that crashes costs that variant only, and --mem is a limit that is "
+      "kept; what a process prints goes to variants/ID/worker.log");
+  ran->add_option("--timeout", options->timeout, "with --isolate: seconds after which a variant is ended; 0: none")
+      ->check(CLI::Range(0.0, 1e9))
+      ->needs("--isolate");
   ran->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -18,6 +18,7 @@ void add_check(CLI::App& app, int& exit_code);
 void add_nodes(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
 void add_sweep(CLI::App& app, int& exit_code);
+void add_sweep_work(CLI::App& sweep, int& exit_code);
 void add_diff(CLI::App& app, int& exit_code);
 void add_graph(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
@@ -36,6 +37,11 @@ struct CacheChoice {
 void add_cache_options(CLI::App& verb, CacheChoice& choice);
 /// Null if there is to be none, or if it cannot be used: that is said on stderr.
 std::unique_ptr<Cache> open_cache(const CacheChoice& choice);
+
+/// What the processes of a sweep are told of its cache (null: none) and of hashes.
+std::vector<std::string> worker_arguments(const CacheChoice& choice, const Cache* cache, bool no_hashes);
+/// The path of this program.
+std::string own_program();
 
 /// "1 node", "2 nodes".
 std::string counted(std::size_t count, std::string_view what);

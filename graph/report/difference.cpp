@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "graph/cache/blob.hpp"
+
 namespace atrium::report {
 namespace {
 
@@ -66,7 +68,7 @@ void compare_metrics(const RunRecord& a, const RunRecord& b, Difference& result)
 }
 
 std::string content(const RunRecord& run, const RunRecord::File& file) {
-  return file.hash.empty() ? hash_of_file(run.folder / file.path) : file.hash;
+  return file.hash.empty() ? hash_if_readable(run.folder / file.path) : file.hash;
 }
 
 /// A picture that differs in its bytes; the same pixels are the same picture (a run's stamp is in the file).

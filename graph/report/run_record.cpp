@@ -1,30 +1,16 @@
 #include "graph/report/run_record.hpp"
 
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "graph/pipeline/yaml_tree.hpp"
+#include "graph/run/record_json.hpp"
 
 namespace atrium::report {
 namespace {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
-
-Fact read_fact(const json& entry) {
-  Fact fact{entry.value("name", ""), {}, entry.value("unit", "")};
-  const json& value = entry.at("value");
-  if (value.is_boolean())
-    fact.value = value.get<bool>();
-  else if (value.is_number_integer())
-    fact.value = value.get<std::int64_t>();
-  else if (value.is_string())
-    fact.value = value.get<std::string>();
-  else
-    fact.value = value.is_null() ? std::nan("") : value.get<double>();
-  return fact;
-}
 
 RunRecord::Node read_node(const json& entry) {
   RunRecord::Node node{entry.at("node").get<std::string>(),
@@ -110,16 +96,6 @@ json read_json(const fs::path& file) {
   json result = json::parse(stream, nullptr, false);
   if (!result.is_object()) throw Error(file.string() + " is no JSON file of Atrium");
   return result;
-}
-
-std::string hash_of_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return {};
-  ContentHash hash;
-  std::vector<char> buffer(1U << 20U);
-  while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || file.gcount() > 0)
-    hash.bytes(buffer.data(), static_cast<std::size_t>(file.gcount()));
-  return hash.hex();
 }
 
 std::string name_of(const RunRecord::Metric& metric) {

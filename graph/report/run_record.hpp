@@ -25,7 +25,7 @@ struct RunRecord {
   struct File {
     std::string path;  ///< relative to the folder, "/" between its parts
     std::uint64_t bytes = 0;
-    std::string hash;  ///< "" if the record has none: hash_of_file() takes it
+    std::string hash;  ///< "" if the record has none: hash_if_readable() takes it
   };
   struct Metric {
     std::string output;  ///< the pipeline's output that shows it
@@ -51,9 +51,6 @@ RunRecord read_run(const std::filesystem::path& folder);
 
 /// A whole JSON file. Throws Error.
 nlohmann::json read_json(const std::filesystem::path& file);
-
-/// The content hash of a file; "" if it cannot be read.
-std::string hash_of_file(const std::filesystem::path& file);
 
 /// The name of a metric: "faces.faces.triangles".
 std::string name_of(const RunRecord::Metric& metric);

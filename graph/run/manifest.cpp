@@ -5,6 +5,7 @@
 
 #include "graph/api/plugin.hpp"
 #include "graph/pipeline/png_stamp.hpp"
+#include "graph/run/record_json.hpp"
 
 namespace atrium {
 namespace {
@@ -71,11 +72,7 @@ Json node_json(const NodeRecord& node, const NodeType& type) {
 
 Json facts_json(const std::vector<Fact>& facts) {
   Json json = Json::array();
-  for (const auto& fact : facts) {
-    Json& entry = json.emplace_back(Json{{"name", fact.name}});
-    std::visit([&](const auto& value) { entry["value"] = value; }, fact.value);
-    if (!fact.unit.empty()) entry["unit"] = fact.unit;
-  }
+  for (const auto& fact : facts) json.push_back(fact_json(fact));
   return json;
 }
 

@@ -4,22 +4,16 @@
 
 #include <algorithm>
 #include <set>
-#include <unordered_map>
 
 #include "graph/api/suggest.hpp"
 #include "graph/pipeline/document.hpp"
+#include "graph/sweep/merge.hpp"
 
 namespace atrium {
 namespace {
 
 constexpr std::size_t most_variants = 100'000;
 constexpr std::size_t most_errors = 100;
-
-std::string hash_of(const std::string& text) {
-  ContentHash hash;
-  hash.bytes(text.data(), text.size());
-  return hash.hex();
-}
 
 /// Whether the chosen values fulfil all conditions of one `exclude`.
 bool matches(const std::vector<SweepSetting>& conditions, const SweepFile& sweep,
@@ -163,41 +157,13 @@ class Planner {
 
   void merge(const Pipeline& pipeline, const std::vector<std::size_t>& choices) {
     SweepPlan& plan = result_.plan;
-    SweepVariant variant{hash_of(resolved_yaml(pipeline)).substr(0, 12), choices, pipeline.seed};
-    if (const auto [known, fresh] = ids_.try_emplace(variant.id, plan.variants.size()); !fresh) {
-      ++plan.duplicates;
-      plan.notes.push_back(fmt::format("{} is the same as {}", label_of(sweep_, variant),
-                                       label_of(sweep_, plan.variants[known->second])));
-      return;
-    }
-    plan.nodes += pipeline.nodes.size();
-    for (const PipelineNode& node : pipeline.nodes) variant.nodes.push_back(place(node, variant));
-    for (const auto& output : pipeline.outputs)
-      variant.outputs.push_back({output.name, {variant.nodes[output.from.node], output.from.output}});
-    plan.variants.push_back(std::move(variant));
-  }
-
-  std::size_t place(const PipelineNode& node, const SweepVariant& variant) {
-    PipelineNode merged = node;
-    std::string text = fmt::format("{}\n{}\n{}\n", node.path, node.type->type, node.type->version);
-    if (node.type->random) text += fmt::format("seed {}\n", node.seed);
-    for (std::size_t i = 0; i < node.params.size(); ++i)
-      text += format_param(node.type->params[i], node.params[i]) + "\n";
-    for (auto& port : merged.inputs) {
-      text += "in\n";
-      for (auto& edge : port) {
-        edge.node = variant.nodes[edge.node];
-        text += fmt::format("{}.{}\n", keys_[edge.node], edge.output);
-      }
-    }
-    std::string key = hash_of(text);
-    const auto [known, fresh] = nodes_.try_emplace(key, result_.plan.merged.nodes.size());
-    if (!fresh) return known->second;
-    merged.path = variant.id + "/" + node.path;
-    merged.folder = std::filesystem::path("variants") / variant.id;
-    result_.plan.merged.nodes.push_back(std::move(merged));
-    keys_.push_back(std::move(key));
-    return keys_.size() - 1;
+    const auto [variant, fresh] = merger_.add(pipeline, choices);
+    if (fresh) return;
+    ++plan.duplicates;
+    SweepVariant same;
+    same.choices = choices;
+    plan.notes.push_back(
+        fmt::format("{} is the same as {}", label_of(sweep_, same), label_of(sweep_, plan.variants[variant])));
   }
 
   void finish() {
@@ -222,34 +188,13 @@ class Planner {
   SweepLoad result_;
   std::set<std::string> errors_, warnings_;
   std::vector<std::size_t> excludes_;
-  std::unordered_map<std::string, std::size_t> ids_, nodes_;
-  std::vector<std::string> keys_;
+  VariantMerger merger_{result_.plan};
 };
 
 }  // namespace
 
 SweepLoad plan_sweep(const SweepFile& sweep, const std::vector<Override>& settings, Registry& registry) {
   return Planner(sweep, settings, registry).plan();
-}
-
-Pipeline variant_pipeline(const SweepFile& sweep, const SweepPlan& plan, const SweepVariant& variant) {
-  Pipeline pipeline;
-  pipeline.file = sweep.base;
-  pipeline.summary = plan.merged.summary;
-  pipeline.seed = variant.seed;
-  std::unordered_map<std::size_t, std::size_t> place;
-  for (std::size_t n = 0; n < variant.nodes.size(); ++n) {
-    PipelineNode node = plan.merged.nodes[variant.nodes[n]];
-    place.emplace(variant.nodes[n], n);
-    node.path = node.path.substr(node.path.find('/') + 1);
-    node.folder.clear();
-    for (auto& port : node.inputs)
-      for (auto& edge : port) edge.node = place.at(edge.node);
-    pipeline.nodes.push_back(std::move(node));
-  }
-  for (const auto& output : variant.outputs)
-    pipeline.outputs.push_back({output.name, {place.at(output.from.node), output.from.output}});
-  return pipeline;
 }
 
 std::string label_of(const SweepFile& sweep, const SweepVariant& variant) {
@@ -262,6 +207,13 @@ std::string label_of(const SweepFile& sweep, const SweepVariant& variant) {
     label += (label.empty() ? "" : ", ") + (named ? choice : axis.name + " = " + choice);
   }
   return label.empty() ? "the only variant" : label;
+}
+
+VariantName name_of(const SweepFile& sweep, const SweepVariant& variant) {
+  VariantName name{label_of(sweep, variant), {}};
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a)
+    name.choices.emplace_back(sweep.axes[a].name, sweep.axes[a].choices[variant.choices[a]].label);
+  return name;
 }
 
 }  // namespace atrium

@@ -35,10 +35,14 @@ struct SweepLoad {
 /// Loads and checks every variant; merges them.
 SweepLoad plan_sweep(const SweepFile& sweep, const std::vector<Override>& settings, Registry& registry);
 
-/// The variant's own pipeline again, as it was before merging.
-Pipeline variant_pipeline(const SweepFile& sweep, const SweepPlan& plan, const SweepVariant& variant);
-
 /// "flat, translated.max_separation = 10 cm, seed = 2": of the axes that have several choices.
 std::string label_of(const SweepFile& sweep, const SweepVariant& variant);
+
+/// What a variant is called.
+struct VariantName {
+  std::string label;                                         ///< as label_of() says it
+  std::vector<std::pair<std::string, std::string>> choices;  ///< axis, label of its choice
+};
+VariantName name_of(const SweepFile& sweep, const SweepVariant& variant);
 
 }  // namespace atrium

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "graph/cache/blob.hpp"
+#include "graph/run/record_json.hpp"
 
 namespace atrium {
 namespace {
@@ -25,6 +27,7 @@ Json fingerprint(const std::string& path) {
 Json node_json(const VariantResult::Node& node) {
   Json json{{"node", node.path},         {"type", node.type},       {"status", name_of(node.status)},
             {"wall_seconds", node.wall}, {"cpu_seconds", node.cpu}, {"peak_memory", node.peak_memory}};
+  if (node.known) json["known"] = true;
   json["outputs"] = Json::array();
   for (const auto& output : node.outputs) {
     Json described{{"port", output.port}, {"type", output.type}, {"bytes", output.bytes}};
@@ -32,17 +35,6 @@ Json node_json(const VariantResult::Node& node) {
     json["outputs"].push_back(std::move(described));
   }
   return json;
-}
-
-/// "" if it cannot be read.
-std::string hash_of_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return {};
-  ContentHash hash;
-  std::vector<char> buffer(1U << 20U);
-  while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || file.gcount() > 0)
-    hash.bytes(buffer.data(), static_cast<std::size_t>(file.gcount()));
-  return hash.hex();
 }
 
 Json inputs_of(const SweepPlan& plan, const SweepVariant& variant) {
@@ -59,45 +51,26 @@ Json inputs_of(const SweepPlan& plan, const SweepVariant& variant) {
   return inputs;
 }
 
-Json fact_json(const Fact& fact) {
-  Json json{{"name", fact.name}};
-  std::visit([&](const auto& value) { json["value"] = value; }, fact.value);
-  if (!fact.unit.empty()) json["unit"] = fact.unit;
-  return json;
-}
-
-Fact read_fact(const Json& json) {
-  Fact fact{json.at("name").get<std::string>(), {}, json.value("unit", "")};
-  const Json& value = json.at("value");
-  if (value.is_boolean())
-    fact.value = value.get<bool>();
-  else if (value.is_number_integer())
-    fact.value = value.get<std::int64_t>();
-  else if (value.is_string())
-    fact.value = value.get<std::string>();
-  else
-    fact.value = value.is_null() ? std::nan("") : value.get<double>();
-  return fact;
-}
-
-NodeStatus read_status(const std::string& text) {
-  for (const auto status : {NodeStatus::ok, NodeStatus::failed, NodeStatus::skipped})
+VariantStatus read_status(const std::string& text) {
+  for (const auto status : {VariantStatus::ok, VariantStatus::failed, VariantStatus::crashed})
     if (name_of(status) == text) return status;
-  return NodeStatus::cancelled;
+  return VariantStatus::cancelled;
 }
 
 VariantResult read_result(const Json& json) {
   VariantResult result;
   result.status = read_status(json.at("status").get<std::string>());
+  result.message = json.value("message", "");
   for (const auto& node : json.at("nodes")) {
     std::vector<OutputRecord> outputs;
     for (const auto& output : node.at("outputs"))
       outputs.push_back({output.at("port").get<std::string>(), output.at("type").get<std::string>(),
                          output.at("bytes").get<std::uint64_t>(), output.value("hash", "")});
     result.nodes.push_back({node.at("node").get<std::string>(), node.at("type").get<std::string>(),
-                            read_status(node.at("status").get<std::string>()), node.at("wall_seconds").get<double>(),
-                            node.at("cpu_seconds").get<double>(), node.at("peak_memory").get<std::uint64_t>(),
-                            std::move(outputs)});
+                            read_node_status(node.at("status").get<std::string>()),
+                            node.at("wall_seconds").get<double>(), node.at("cpu_seconds").get<double>(),
+                            node.at("peak_memory").get<std::uint64_t>(), std::move(outputs),
+                            node.value("known", false)});
   }
   for (const auto& output : json.at("outputs")) {
     auto& facts = result.outputs.emplace_back(VariantResult::Output{output.at("name").get<std::string>(), {}}).facts;
@@ -105,23 +78,38 @@ VariantResult read_result(const Json& json) {
   }
   for (const auto& artefact : json.at("artefacts"))
     result.artefacts.push_back({artefact.at("path").get<std::string>(), artefact.at("bytes").get<std::uint64_t>()});
-  result.reused = true;
   return result;
+}
+
+Json read_json(const fs::path& file) {
+  std::ifstream stream(file);
+  return Json::parse(stream, nullptr, false);
 }
 
 }  // namespace
 
-std::string result_json(const fs::path& folder, const SweepFile& sweep, const SweepPlan& plan,
+std::string_view name_of(VariantStatus status) {
+  switch (status) {
+    case VariantStatus::ok: return "ok";
+    case VariantStatus::failed: return "failed";
+    case VariantStatus::crashed: return "crashed";
+    case VariantStatus::missing: return "missing";
+    case VariantStatus::running: return "running";
+    case VariantStatus::lost: return "lost";
+    default: return "cancelled";
+  }
+}
+
+std::string result_json(const fs::path& folder, const VariantName& name, const SweepPlan& plan,
                         const SweepVariant& variant, const VariantResult& result, const std::string& build) {
   Json json{{"atrium", framework_version()},
             {"build", build},
             {"id", variant.id},
-            {"variant", label_of(sweep, variant)},
+            {"variant", name.label},
             {"status", name_of(result.status)}};
   if (!result.message.empty()) json["message"] = result.message;
   json["choices"] = Json::object();
-  for (std::size_t a = 0; a < sweep.axes.size(); ++a)
-    json["choices"][sweep.axes[a].name] = sweep.axes[a].choices[variant.choices[a]].label;
+  for (const auto& [axis, choice] : name.choices) json["choices"][axis] = choice;
   json["inputs"] = inputs_of(plan, variant);
   json["outputs"] = Json::array();
   for (const auto& output : result.outputs) {
@@ -132,24 +120,34 @@ std::string result_json(const fs::path& folder, const SweepFile& sweep, const Sw
   json["artefacts"] = Json::array();
   for (const auto& artefact : result.artefacts)
     json["artefacts"].push_back(
-        {{"path", artefact.path}, {"bytes", artefact.bytes}, {"hash", hash_of_file(folder / artefact.path)}});
+        {{"path", artefact.path}, {"bytes", artefact.bytes}, {"hash", hash_if_readable(folder / artefact.path)}});
   json["nodes"] = Json::array();
   for (const auto& node : result.nodes) json["nodes"].push_back(node_json(node));
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::optional<VariantResult> read_result(const fs::path& folder, const std::string& build) {
+  const Json json = read_json(folder / "result.json");
+  if (!json.is_object()) return std::nullopt;
+  try {
+    return json.at("build") == build ? std::optional(read_result(json)) : std::nullopt;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
 std::optional<VariantResult> reusable_result(const fs::path& folder, const SweepPlan& plan, const SweepVariant& variant,
                                              const std::string& build) {
-  std::ifstream file(folder / "result.json");
-  const Json json = Json::parse(file, nullptr, false);
+  const Json json = read_json(folder / "result.json");
   if (!json.is_object()) return std::nullopt;
   try {
     if (json.at("build") != build || json.at("status") != "ok" || json.at("inputs") != inputs_of(plan, variant))
       return std::nullopt;
     VariantResult result = read_result(json);
     for (const auto& artefact : json.at("artefacts"))
-      if (hash_of_file(folder / artefact.at("path").get<std::string>()) != artefact.at("hash").get<std::string>())
+      if (hash_if_readable(folder / artefact.at("path").get<std::string>()) != artefact.at("hash").get<std::string>())
         return std::nullopt;
+    result.reused = true;
     return result;
   } catch (const Json::exception&) {  // of another version, or not ours
     return std::nullopt;

@@ -10,6 +10,17 @@
 
 namespace atrium {
 
+enum class VariantStatus {
+  ok,
+  failed,     ///< a node says what is wrong
+  crashed,    ///< the process that ran it ended without a word: a signal, exit(), the memory or time limit
+  cancelled,  ///< the sweep was ended before the variant was done
+  missing,    ///< of a sweep on many machines: nobody has begun with it
+  running,    ///< of a sweep on many machines: it is being run
+  lost,       ///< of a sweep on many machines: it was begun, and there is no sign of life of who did
+};
+std::string_view name_of(VariantStatus status);
+
 /// What became of one variant.
 struct VariantResult {
   struct Node {
@@ -18,13 +29,14 @@ struct VariantResult {
     double wall = 0, cpu = 0;
     std::uint64_t peak_memory = 0;
     std::vector<OutputRecord> outputs;
+    bool known = false;  ///< to the cache: times and memory are those of when it was computed
   };
   struct Output {
     std::string name;
     std::vector<Fact> facts;
   };
-  NodeStatus status = NodeStatus::cancelled;  ///< ok, failed or cancelled
-  std::string message;                        ///< of the node that failed first, with its path
+  VariantStatus status = VariantStatus::cancelled;
+  std::string message;  ///< of the node that failed first, with its path; of one that crashed: how, and in which node
   std::vector<Node> nodes;
   std::vector<Output> outputs;
   std::vector<Artefact> artefacts;  ///< relative to the variant's folder
@@ -33,11 +45,14 @@ struct VariantResult {
 
 /// The file `result.json` of a variant: what became of it, what it depended on (Atrium's build, the input files), and
 /// the files in its folder with the hashes of their contents.
-std::string result_json(const std::filesystem::path& folder, const SweepFile& sweep, const SweepPlan& plan,
+std::string result_json(const std::filesystem::path& folder, const VariantName& name, const SweepPlan& plan,
                         const SweepVariant& variant, const VariantResult& result, const std::string& build);
 
-/// Reads it back; nothing unless the variant was done by the same build, its input files are the same (size and time of
-/// change) and the files that it wrote are still there as they were.
+/// Reads it back as it stands; nothing if there is none, or it is of another build.
+std::optional<VariantResult> read_result(const std::filesystem::path& folder, const std::string& build);
+
+/// Reads it back; nothing unless the variant was done, by the same build, its input files are the same (size and time
+/// of change) and the files that it wrote are still there as they were.
 std::optional<VariantResult> reusable_result(const std::filesystem::path& folder, const SweepPlan& plan,
                                              const SweepVariant& variant, const std::string& build);
 

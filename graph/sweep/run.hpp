@@ -11,6 +11,13 @@ struct SweepOptions {
   const std::atomic<bool>* cancel = nullptr;
   Cache* cache = nullptr;
   std::uint64_t memory = 0;  ///< bytes that the nodes which run at the same time may need together; 0: any
+  /// Each variant in a process of its own: the program, and what every worker is told of the cache.
+  struct Isolation {
+    std::string program;
+    std::vector<std::string> arguments;
+    double timeout = 0;  ///< seconds that a variant may take; 0: any
+  };
+  std::optional<Isolation> isolation;
 };
 
 struct SweepResult {
@@ -24,8 +31,16 @@ struct SweepResult {
 
 /// Runs the variants that are not done yet, nodes that several share once, into OUT/variants/ID. A variant is recorded
 /// (result.json) as soon as its last node is done: a sweep that is killed goes on where it was. A variant that fails
-/// costs the others nothing. Writes table.csv, table.md and table.txt. Throws FolderError.
+/// costs the others nothing. In isolation --mem is a limit that is kept, not an estimate. Writes table.csv, table.md
+/// and table.txt. Throws FolderError.
 SweepResult run_sweep(const SweepFile& sweep, const SweepPlan& plan, const std::string& build,
                       const SweepOptions& options, ProgressSink& progress);
+
+/// What run_sweep leaves of the sweep as a whole: its tables; and of a run of its merged graph, which goes into
+/// `result`.
+void write_tables(const std::filesystem::path& out, const SweepFile& sweep, const SweepPlan& plan,
+                  const std::vector<VariantResult>& results);
+void write_run(const std::filesystem::path& out, const Pipeline& pipeline, const RunResult& run,
+               const std::string& started, SweepResult& result);
 
 }  // namespace atrium

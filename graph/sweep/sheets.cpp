@@ -52,8 +52,9 @@ std::vector<std::string> write_sheets(const SweepFile& sweep, const SweepPlan& p
       if (!is_shown(sweep, plan.variants[v])) continue;
       files.push_back(
           (std::filesystem::absolute(options.out) / "variants" / plan.variants[v].id / sheet.picture).string());
-      captions.push_back(label_of(sweep, plan.variants[v]) +
-                         (results[v].status == NodeStatus::ok ? "" : ": " + std::string(name_of(results[v].status))));
+      captions.push_back(label_of(sweep, plan.variants[v]) + (results[v].status == VariantStatus::ok
+                                                                  ? ""
+                                                                  : ": " + std::string(name_of(results[v].status))));
     }
     Pipeline pipeline;
     PipelineNode reader = make_node("read", *read);

@@ -208,7 +208,7 @@ std::string group_cell(const std::vector<std::size_t>& group, std::size_t metric
   std::vector<double> values;
   for (const std::size_t v : group) {
     const Shown& shown = numbers.cells[v][metric];
-    if (results[v].status != NodeStatus::ok || !shown.found) continue;
+    if (results[v].status != VariantStatus::ok || !shown.found) continue;
     if (!shown.cell.number) return shown.cell.text;
     values.push_back(*shown.cell.number);
   }
@@ -237,7 +237,7 @@ Table full_table(const SweepFile& sweep, const SweepPlan& plan, const std::vecto
     bool done = false;
     bool found = false;
     for (std::size_t v = 0; v < results.size(); ++v) {
-      done = done || results[v].status == NodeStatus::ok;
+      done = done || results[v].status == VariantStatus::ok;
       found = found || numbers.cells[v][m].found;
     }
     if (done && !found) unknown->push_back(unknown_metric(numbers.metrics[m], results));
@@ -258,7 +258,7 @@ Table short_table(const SweepFile& sweep, const SweepPlan& plan, const std::vect
       if (varies(sweep.axes[a]) && sweep.axes[a].name != "seed")
         add_cells(sweep.axes[a], plan.variants[group.front()].choices[a], row);
     for (std::size_t m = 0; m < numbers.metrics.size(); ++m) row.push_back(group_cell(group, m, numbers, results));
-    const auto not_ok = [&](std::size_t v) { return results[v].status != NodeStatus::ok; };
+    const auto not_ok = [&](std::size_t v) { return results[v].status != VariantStatus::ok; };
     const auto first = std::find_if(group.begin(), group.end(), not_ok);
     if (first == group.end()) {
       row.emplace_back("ok");

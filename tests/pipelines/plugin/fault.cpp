@@ -2,9 +2,11 @@
 
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
+#include <vector>
 
 namespace atrium::trial {
 namespace {
@@ -14,10 +16,22 @@ void flood() {
   for (int i = 0; i < 10'000; ++i) std::fprintf(stderr, "%s\n", line.c_str());
 }
 
+void devour(Context& context) {
+  std::vector<std::vector<char>> taken;
+  while (taken.size() < 100) {
+    taken.emplace_back(10'000'000, 'x');
+    context.check_cancelled();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
 }  // namespace
 
 Fault::Out Fault::run(const In& in, const Params& params, Context& context) {
   if (params.mode == Mode::abort) std::abort();
+  if (params.mode == Mode::segv) std::raise(SIGSEGV);
+  if (params.mode == Mode::exit) std::_Exit(7);
+  if (params.mode == Mode::devour) devour(context);
   if (params.mode == Mode::flood) flood();
   if (params.mode == Mode::hang) context.info("hanging");
   while (params.mode == Mode::hang) {

@@ -1,0 +1,97 @@
+// atrium sweep work DIR TASK: what the processes of a sweep run.
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "graph/cache/upkeep.hpp"
+#include "graph/cli/signals.hpp"
+#include "graph/cli/verbs.hpp"
+#include "graph/pipeline/registry.hpp"
+#include "graph/run/run_folder.hpp"
+#include "graph/sweep/isolated_run.hpp"
+
+namespace atrium::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string folder;
+  std::vector<std::string> tasks, skipped;
+  std::string build, memory;
+  int threads = 0;
+  bool here = false, no_hashes = false;
+  CacheChoice cache;
+};
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// A file in the work folder, or ids of variants.
+WorkerTask task_of(const fs::path& folder, const std::vector<std::string>& names) {
+  const fs::path file = folder / work_folder / names.front();
+  if (names.size() == 1 && fs::is_regular_file(file)) return read_task(read_text(file), file.string());
+  WorkerTask task;
+  for (const auto& name : names) task.parts.push_back({name, {}});
+  return task;
+}
+
+int work_here(const Options& options) {
+  ::fcntl(WorkerProcess::events_file, F_SETFD, FD_CLOEXEC);  // not for programs that nodes start
+  if (options.threads > 0)
+    ::setenv("OMP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+  const CancelOnSignal signals;
+  Registry registry;
+  const fs::path folder = fs::absolute(options.folder).lexically_normal();
+  WorkerOptions worker{
+      folder, options.build, options.skipped, folder / work_folder / "scratch" / options.tasks.front(), {}};
+  const auto cache = open_cache(options.cache);
+  worker.run.cache = cache.get();
+  worker.run.threads = options.threads;
+  worker.run.hashes = !options.no_hashes;
+  worker.run.cancel = signals.flag();
+  if (!options.memory.empty()) worker.run.memory = read_size(options.memory);
+  EventSink events(WorkerProcess::events_file);
+  run_worker(task_of(folder, options.tasks), worker, registry, events);
+  return ok;
+}
+
+}  // namespace
+
+std::vector<std::string> worker_arguments(const CacheChoice& choice, const Cache* cache, bool no_hashes) {
+  std::vector<std::string> arguments;
+  if (cache != nullptr) arguments = {"--cache", cache->places().folder.string(), "--cache-size", choice.size};
+  if (no_hashes) arguments.emplace_back("--no-hashes");
+  return arguments;
+}
+
+std::string own_program() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) throw Error("cannot find this program: " + error.message());
+  return program.string();
+}
+
+void add_sweep_work(CLI::App& sweep, int& exit_code) {
+  auto* verb = sweep.add_subcommand("work", "What the processes of a sweep run; started by the other verbs.");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("DIR", options->folder, "the sweep's folder")->required();
+  verb->add_option("TASK", options->tasks, "a file in DIR/work, or ids of variants")->required();
+  verb->add_flag("--here", options->here, "in this process");
+  verb->add_option("--skip", options->skipped, "ID/NODE: not this node, nor what depends on it")
+      ->allow_extra_args(false);
+  verb->add_option("--build", options->build, "what the sweep was begun with");
+  verb->add_option("-j,--threads", options->threads, "threads")->check(CLI::Range(1, 1024));
+  verb->add_option("--mem", options->memory, "memory");
+  verb->add_flag("--no-hashes", options->no_hashes, "no content hashes of outputs");
+  add_cache_options(*verb, options->cache);
+  verb->callback([options, &exit_code] { exit_code = work_here(*options); });
+}
+
+}  // namespace atrium::cli

@@ -1,0 +1,131 @@
+#include "graph/sweep/joined_run.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "graph/run/record_json.hpp"
+#include "graph/sweep/merge.hpp"
+#include "graph/sweep/recorder.hpp"
+
+namespace atrium {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+int rank_of(const NodeRecord& record) {
+  if (record.status == NodeStatus::ok) return record.is_hit() ? 3 : 4;
+  return record.status == NodeStatus::failed ? 2 : 1;
+}
+
+}  // namespace
+
+JoinedRun::JoinedRun(const SweepPlan& plan, const std::vector<bool>& wanted, double started, ProgressSink& progress)
+    : progress_(progress), started_(started) {
+  const std::vector<bool> nodes = nodes_of(plan, wanted);
+  pipeline_ = part_of(plan.merged, nodes);
+  std::vector<std::size_t> place(nodes.size(), 0);
+  for (std::size_t n = 0, next = 0; n < nodes.size(); ++n) {
+    if (!nodes[n]) continue;
+    index_.emplace(plan.merged.nodes[n].path, next);
+    place[n] = next++;
+  }
+  for (std::size_t v = 0; v < plan.variants.size(); ++v)
+    for (const std::size_t n : plan.variants[v].nodes)
+      if (wanted[v]) index_.emplace(plan.variants[v].id + "/" + address_in_variant(plan.merged.nodes[n]), place[n]);
+  const std::size_t size = pipeline_.nodes.size();
+  records_.resize(size);
+  ranks_.resize(size, 0);
+  finished_.resize(size, false);
+  for (std::size_t n = 0; n < size; ++n) {
+    records_[n].node = pipeline_.nodes[n].path;
+    records_[n].type = pipeline_.nodes[n].type->type;
+  }
+  progress_.planned(size);
+}
+
+void JoinedRun::hear(const std::string& process, const Json& event) {
+  const std::string kind = event.value("e", "");
+  if (kind == "begin") shifts_[process] = event.at("time").get<double>() - started_;
+  if (kind == "finished" || kind == "described") take(read_record_json(event.at("record")), shifts_[process]);
+  if (kind == "end") {
+    const ProcessTotals totals = read_totals(event);
+    totals_.cpu += totals.cpu;
+    totals_.peak_memory = std::max(totals_.peak_memory, totals.peak_memory);
+    totals_.loaded += totals.loaded;
+    totals_.kept += totals.kept;
+    problems_.insert(totals.cache_problems.begin(), totals.cache_problems.end());
+  }
+  if (!event.contains("node")) return;
+  const auto found = index_.find(event.at("node").get<std::string>());
+  if (found == index_.end() || finished_[found->second]) return;
+  const std::string& node = pipeline_.nodes[found->second].path;
+  if (kind == "started") progress_.started(node);
+  if (kind == "share") progress_.progress(node, event.at("share").get<double>());
+  if (kind == "said") progress_.message(node, event.at("text").get<std::string>(), event.at("warning").get<bool>());
+}
+
+void JoinedRun::take(NodeRecord record, double shift) {
+  record.start += shift;
+  record.hash_start += shift;
+  last_[record.node] = record;
+  const auto found = index_.find(record.node);
+  if (found == index_.end()) return;
+  const std::size_t n = found->second;
+  record.node = pipeline_.nodes[n].path;
+  if (const int rank = rank_of(record); rank >= ranks_[n]) {
+    ranks_[n] = rank;
+    records_[n] = record;
+  }
+  if (record.status != NodeStatus::cancelled) finish(n, record);
+}
+
+void JoinedRun::finish(std::size_t n, const NodeRecord& record) {
+  if (finished_[n]) return;
+  finished_[n] = true;
+  progress_.finished(record);
+}
+
+void JoinedRun::crashed(const std::string& node, const std::string& message) {
+  const auto found = index_.find(node);
+  if (found == index_.end()) return;
+  NodeRecord record;
+  record.node = node;
+  record.type = pipeline_.nodes[found->second].type->type;
+  record.status = NodeStatus::failed;
+  record.message = message;
+  take(std::move(record), 0);
+}
+
+const NodeRecord* JoinedRun::record_of(const std::string& node) const {
+  const auto found = last_.find(node);
+  return found == last_.end() ? nullptr : &found->second;
+}
+
+void mark_skipped(const Pipeline& pipeline, std::size_t node, std::vector<NodeRecord>& records) {
+  for (const auto& port : pipeline.nodes[node].inputs)
+    for (const Edge& edge : port) {
+      const NodeRecord& from = records[edge.node];
+      if (from.status != NodeStatus::failed && from.status != NodeStatus::skipped) continue;
+      records[node].status = NodeStatus::skipped;
+      records[node].because = from.status == NodeStatus::failed ? from.node : from.because;
+    }
+}
+
+RunResult JoinedRun::run() const {
+  RunResult run;
+  run.nodes = records_;
+  for (std::size_t n = 0; n < run.nodes.size(); ++n)
+    if (ranks_[n] == 0) mark_skipped(pipeline_, n, run.nodes);
+  for (const auto& node : run.nodes) {
+    if (node.status == NodeStatus::failed) run.failures.push_back({node.node, node.type, node.message, node.help});
+    run.cancelled = run.cancelled || node.status == NodeStatus::cancelled;
+  }
+  run.cpu = totals_.cpu;
+  run.peak_memory = totals_.peak_memory;
+  run.loaded = totals_.loaded;
+  run.kept = totals_.kept;
+  run.cache_problems.assign(problems_.begin(), problems_.end());
+  return run;
+}
+
+}  // namespace atrium

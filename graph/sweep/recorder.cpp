@@ -1,0 +1,139 @@
+#include "graph/sweep/recorder.hpp"
+
+#include "graph/run/run_folder.hpp"
+#include "graph/sweep/merge.hpp"
+
+namespace atrium {
+namespace {
+
+namespace fs = std::filesystem;
+
+void add_node(const PipelineNode& node, const NodeRecord& record, VariantResult& result) {
+  const std::string path = address_in_variant(node);
+  result.nodes.push_back({path, record.type, record.status, record.computing_wall(), record.computing_cpu(),
+                          record.computing_memory(), record.outputs, record.is_hit() && !record.cache.again});
+  if (record.status == NodeStatus::failed && result.message.empty()) result.message = path + ": " + record.message;
+  if (record.status == NodeStatus::failed) result.status = VariantStatus::failed;
+  if (record.status == NodeStatus::skipped && result.status == VariantStatus::ok) {
+    // Its own nodes are all right: one of them was to be run again for a value, and that failed.
+    result.status = VariantStatus::failed;
+    result.message = path + ": " + record.because + " failed";
+  }
+  if (record.status == NodeStatus::cancelled && result.status == VariantStatus::ok)
+    result.status = VariantStatus::cancelled;
+}
+
+}  // namespace
+
+fs::path variant_folder(const fs::path& out, const SweepVariant& variant) { return out / "variants" / variant.id; }
+
+std::vector<std::optional<VariantResult>> done_variants(const fs::path& out, const SweepPlan& plan,
+                                                        const std::string& build) {
+  std::vector<std::optional<VariantResult>> done;
+  for (const auto& variant : plan.variants)
+    done.push_back(reusable_result(variant_folder(out, variant), plan, variant, build));
+  return done;
+}
+
+void begin_variant(const fs::path& out, const SweepPlan& plan, const SweepVariant& variant) {
+  const fs::path folder = variant_folder(out, variant);
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+  fs::create_directories(folder, ignored);
+  write_file(folder / "resolved.yaml", resolved_yaml(variant_pipeline(plan, variant)), false);
+}
+
+std::vector<bool> nodes_of(const SweepPlan& plan, const std::vector<bool>& variants) {
+  std::vector<bool> wanted(plan.merged.nodes.size(), false);
+  for (std::size_t v = 0; v < plan.variants.size(); ++v)
+    if (variants[v])
+      for (const std::size_t n : plan.variants[v].nodes) wanted[n] = true;
+  return wanted;
+}
+
+VariantResult result_of(const SweepPlan& plan, const SweepVariant& variant,
+                        const std::function<const NodeRecord&(std::size_t node)>& record) {
+  VariantResult result;
+  result.status = VariantStatus::ok;
+  for (const std::size_t n : variant.nodes) add_node(plan.merged.nodes[n], record(n), result);
+  for (const auto& output : variant.outputs) {
+    const NodeRecord& from = record(output.from.node);
+    if (from.status == NodeStatus::ok && !from.facts[output.from.output].empty())
+      result.outputs.push_back({output.name, from.facts[output.from.output]});
+  }
+  return result;
+}
+
+Recorder::Recorder(const SweepPlan& plan, const std::vector<bool>& wanted, Options options, ProgressSink& progress)
+    : plan_(plan),
+      options_(std::move(options)),
+      progress_(progress),
+      variants_of_(plan.merged.nodes.size()),
+      left_(plan.variants.size(), 0),
+      records_(plan.merged.nodes.size()),
+      variants_(plan.variants.size()) {
+  for (std::size_t n = 0; n < plan.merged.nodes.size(); ++n) index_.emplace(plan.merged.nodes[n].path, n);
+  for (std::size_t v = 0; v < plan.variants.size(); ++v) {
+    if (!wanted[v]) continue;
+    left_[v] = plan.variants[v].nodes.size();
+    for (const std::size_t n : plan.variants[v].nodes) variants_of_[n].push_back(v);
+  }
+}
+
+void Recorder::finished(const NodeRecord& record) {
+  progress_.finished(record);
+  if (record.status != NodeStatus::ok) settle(record);
+}
+
+void Recorder::described(const NodeRecord& record) {
+  progress_.described(record);
+  settle(record);
+}
+
+const PngStamp& Recorder::stamp_of_variant(const PipelineNode& node) {
+  const std::lock_guard lock(mutex_);
+  const auto [known, fresh] = stamps_.try_emplace(node.folder.filename().string());
+  if (fresh)
+    for (const auto& variant : plan_.variants)
+      if (variant.id == known->first) known->second = stamp_of(variant_pipeline(plan_, variant));
+  return known->second;
+}
+
+void Recorder::settle(const NodeRecord& record) {
+  const std::lock_guard lock(mutex_);
+  const std::size_t n = index_.at(record.node);
+  records_[n] = record;
+  for (const std::size_t v : variants_of_[n])
+    if (--left_[v] == 0) record_variant(v);
+}
+
+void Recorder::record_variant(std::size_t v) {
+  const SweepVariant& variant = plan_.variants[v];
+  VariantResult& result = variants_[v];
+  result = result_of(plan_, variant, [this](std::size_t n) -> const NodeRecord& { return records_[n]; });
+  for (const std::size_t n : variant.nodes)
+    for (const auto& artefact : records_[n].artefacts) add_artefact(variant, n, artefact, result);
+  if (result.status == VariantStatus::failed && ++failures_ >= options_.max_failures) stop_ = true;
+  if (result.status == VariantStatus::cancelled) return;  // it is done anew next time
+  const fs::path folder = variant_folder(options_.out, variant);
+  write_file(folder / "result.json",
+             result_json(folder, options_.name(variant), plan_, variant, result, options_.build),
+             false);  // if it is cut off, the variant is not done
+}
+
+/// A file that another variant's node wrote for both is linked, so that each variant's folder is complete.
+void Recorder::add_artefact(const SweepVariant& variant, std::size_t n, const Artefact& artefact,
+                            VariantResult& result) {
+  const fs::path folder = plan_.merged.nodes[n].folder;
+  const fs::path relative = fs::path(artefact.path).lexically_relative(folder);
+  result.artefacts.push_back({relative.generic_string(), artefact.bytes});
+  const fs::path target = variant_folder(options_.out, variant) / relative;
+  const fs::path source = options_.out / artefact.path;
+  std::error_code error;
+  if (source == target || fs::exists(target, error)) return;
+  fs::create_directories(target.parent_path(), error);
+  fs::create_hard_link(source, target, error);
+  if (error) fs::copy_file(source, target, error);
+}
+
+}  // namespace atrium

@@ -1,0 +1,63 @@
+#include "graph/sweep/sweep_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "graph/run/run_folder.hpp"
+
+namespace atrium {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the sweep is of, for programs that read its folder: axes with the labels of their choices in order, and what
+/// each sets; metrics with the digits that they are shown with.
+std::string sweep_json(const SweepFile& sweep) {
+  using Json = nlohmann::ordered_json;
+  Json json{{"atrium", framework_version()}, {"sweep", sweep.path.string()}, {"base", sweep.base.string()}};
+  if (!sweep.summary.empty()) json["summary"] = sweep.summary;
+  json["axes"] = Json::array();
+  for (const auto& axis : sweep.axes) {
+    Json choices = Json::array();
+    for (const auto& choice : axis.choices) {
+      Json set = Json::object();
+      for (const auto& setting : choice.settings) set[setting.target] = setting.value;
+      choices.push_back({{"label", choice.label}, {"set", std::move(set)}});
+    }
+    json["axes"].push_back({{"name", axis.name}, {"choices", std::move(choices)}});
+  }
+  json["metrics"] = Json::array();
+  for (const auto& metric : sweep.metrics) {
+    Json shown{{"name", metric.name}};
+    if (metric.digits) shown["digits"] = *metric.digits;
+    json["metrics"].push_back(std::move(shown));
+  }
+  json["pictures"] = Json::array();
+  for (const auto& sheet : sweep.sheets) json["pictures"].push_back({{"file", sheet.file}, {"picture", sheet.picture}});
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+SweepFolder::SweepFolder(const fs::path& folder, const SweepFile& sweep) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw FolderError("cannot make the folder " + folder.string() + ": " + error.message());
+  if (!fs::exists(folder / sweep_mark) && !holds_only_unfinished(folder))
+    throw FolderError(folder.string() + " is not empty and is not the folder of a sweep",
+                      "choose another folder with --out, or empty it");
+  lock_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) == 0) {
+    write_file(folder / sweep_mark, sweep_json(sweep));
+    return;
+  }
+  if (lock_ >= 0) ::close(lock_);
+  throw FolderError("another sweep is writing into " + folder.string(), "choose another folder with --out");
+}
+
+SweepFolder::~SweepFolder() { ::close(lock_); }
+
+}  // namespace atrium

@@ -1,0 +1,176 @@
+#include "graph/sweep/worker.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "graph/cache/costs.hpp"
+#include "graph/run/clocks.hpp"
+#include "graph/run/run_folder.hpp"
+#include "graph/run/scheduler.hpp"
+#include "graph/sweep/merge.hpp"
+#include "graph/sweep/recorder.hpp"
+
+namespace atrium {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+VariantNote read_note(const fs::path& folder) {
+  const fs::path file = folder / "variant.json";
+  std::ifstream stream(file);
+  const Json json = Json::parse(stream, nullptr, false);
+  try {
+    VariantNote note{{json.at("variant").get<std::string>(), {}}, {}};
+    for (const auto& [axis, choice] : json.at("choices").items())
+      note.name.choices.emplace_back(axis, choice.get<std::string>());
+    for (const auto& [node, id] : json.at("pictures_show").items())
+      note.stamps.emplace_back(node, id.get<std::string>());
+    return note;
+  } catch (const Json::exception&) {
+    throw Error(file.string() + " cannot be read",
+                "it is written by `atrium sweep run --isolate` and `atrium sweep submit`");
+  }
+}
+
+Pipeline load_variant(const fs::path& sweep, const std::string& id, Registry& registry) {
+  const fs::path file = sweep / "variants" / id / "resolved.yaml";
+  LoadResult loaded = load_pipeline(file, {}, registry);
+  if (!loaded.errors.empty()) throw Error(to_string(loaded.errors.front()));
+  if (id_of(loaded.pipeline) != id)
+    throw Error(file.string() + " is not that of the variant any more",
+                "begin the sweep again: what is done is not done again");
+  return std::move(loaded.pipeline);
+}
+
+/// The nodes that are to be run: what the task names and what that reads, without what is to be skipped and what
+/// depends on it.
+std::vector<bool> wanted_nodes(const WorkerTask& task, const SweepPlan& plan, const std::vector<std::string>& skipped) {
+  const auto& nodes = plan.merged.nodes;
+  std::vector<bool> wanted(nodes.size(), false);
+  for (std::size_t p = 0; p < task.parts.size(); ++p) {
+    const auto& part = task.parts[p];
+    for (const std::size_t n : plan.variants[p].nodes) {
+      const std::string address = address_in_variant(nodes[n]);
+      if (part.nodes.empty() || std::find(part.nodes.begin(), part.nodes.end(), address) != part.nodes.end())
+        wanted[n] = true;
+    }
+  }
+  for (std::size_t n = nodes.size(); n-- > 0;)
+    for (const auto& port : nodes[n].inputs)
+      for (const Edge& edge : port) wanted[edge.node] = wanted[edge.node] || wanted[n];
+  const std::set<std::string> without(skipped.begin(), skipped.end());
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (without.contains(nodes[n].path)) wanted[n] = false;
+    for (const auto& port : nodes[n].inputs)
+      for (const Edge& edge : port) wanted[n] = wanted[n] && wanted[edge.node];
+  }
+  return wanted;
+}
+
+/// Pictures that show other variants than the one that runs, read before anything runs.
+class Stamps {
+ public:
+  Stamps(const std::vector<VariantNote>& notes, const SweepPlan& plan, const fs::path& sweep, Registry& registry) {
+    for (std::size_t v = 0; v < notes.size(); ++v)
+      for (const auto& [node, id] : notes[v].stamps) {
+        const auto [known, fresh] = stamps_.try_emplace(id);
+        if (fresh) known->second = stamp_of(load_variant(sweep, id, registry));
+        of_node_.emplace(plan.variants[v].id + "/" + node, id);
+      }
+  }
+  const PngStamp* of(const PipelineNode& node) const {
+    const auto found = of_node_.find(node.path);
+    return found == of_node_.end() ? nullptr : &stamps_.at(found->second);
+  }
+
+ private:
+  std::map<std::string, PngStamp> stamps_;
+  std::map<std::string, std::string> of_node_;
+};
+
+}  // namespace
+
+std::string task_text(const WorkerTask& task) {
+  std::string text;
+  for (const auto& part : task.parts) {
+    text += part.id;
+    for (const auto& node : part.nodes) text += " " + node;
+    text += "\n";
+  }
+  return text;
+}
+
+WorkerTask read_task(const std::string& text, const std::string& name) {
+  WorkerTask task;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    WorkerTask::Part part;
+    if (!(words >> part.id)) continue;
+    for (std::string node; words >> node;) part.nodes.push_back(std::move(node));
+    task.parts.push_back(std::move(part));
+  }
+  if (task.parts.empty()) throw Error(name + " names no variant");
+  return task;
+}
+
+void write_note(const fs::path& folder, const VariantNote& note) {
+  Json json{{"variant", note.name.label}, {"choices", Json::object()}, {"pictures_show", Json::object()}};
+  for (const auto& [axis, choice] : note.name.choices) json["choices"][axis] = choice;
+  for (const auto& [node, id] : note.stamps) json["pictures_show"][node] = id;
+  write_file(folder / "variant.json", json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n", false);
+}
+
+void run_worker(const WorkerTask& task, const WorkerOptions& options, Registry& registry, EventSink& events) {
+  if (registry.build() != options.build)
+    throw Error("the program or its plugins were changed since the sweep was begun",
+                "begin it again: results of two programs do not go into one table");
+  SweepPlan plan;
+  VariantMerger merger(plan);
+  std::vector<VariantNote> notes;
+  std::map<std::string, VariantName> names;
+  const bool whole = task.parts.front().nodes.empty();
+  for (const auto& part : task.parts) {
+    const Pipeline pipeline = load_variant(options.sweep, part.id, registry);
+    plan.merged.summary = pipeline.summary;
+    if (!merger.add(pipeline, {}).fresh) throw Error("the variant " + part.id + " is named twice");
+    if (!whole) continue;
+    notes.push_back(read_note(options.sweep / "variants" / part.id));
+    names.emplace(part.id, notes.back().name);
+  }
+  const Stamps stamps(notes, plan, options.sweep, registry);
+  Recorder recorder(plan, std::vector<bool>(plan.variants.size(), whole),
+                    {options.sweep, options.build, ~std::size_t{0},
+                     [&](const SweepVariant& variant) { return names.at(variant.id); }},
+                    events);
+  const Pipeline pipeline = part_of(plan.merged, wanted_nodes(task, plan, options.skipped));
+  RunOptions run_options = options.run;
+  run_options.out = whole ? options.sweep : options.scratch;
+  run_options.stamp = [&](const PipelineNode& node) -> const PngStamp& {
+    const PngStamp* stamp = stamps.of(node);
+    return stamp != nullptr ? *stamp : recorder.stamp_of_variant(node);
+  };
+  Costs costs(run_options.cache == nullptr ? CachePlaces{} : run_options.cache->places());
+  if (run_options.cache != nullptr)
+    run_options.memory_of = [&](const PipelineNode& node) -> std::optional<std::uint64_t> {
+      const auto cost = costs.of(node.type->type, address_of(node));
+      return cost ? std::optional(cost->memory) : std::nullopt;
+    };
+  const double start = wall_seconds();
+  events.begin();
+  RunResult run = Scheduler(pipeline, run_options, whole ? static_cast<ProgressSink&>(recorder) : events).run();
+  finish_cache(run_options.cache, run);
+  run.wall = wall_seconds() - start;
+  run.cpu = process_cpu_seconds();
+  run.peak_memory = peak_memory();
+  for (const auto& node : run.nodes) run.peak_memory = std::max(run.peak_memory, node.peak_memory);
+  events.end(run);
+}
+
+}  // namespace atrium

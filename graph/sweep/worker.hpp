@@ -1,0 +1,40 @@
+#pragma once
+#include "graph/sweep/events.hpp"
+#include "graph/sweep/result.hpp"
+
+namespace atrium {
+
+/// What one process does of a sweep: whole variants, each recorded in its folder; or some nodes of some variants, which
+/// are left in the cache only (the beginnings that others share). As text, one variant in a line: "ID", or "ID NODE
+/// NODE …".
+struct WorkerTask {
+  struct Part {
+    std::string id;
+    std::vector<std::string> nodes;  ///< empty: the whole variant
+  };
+  std::vector<Part> parts;
+};
+std::string task_text(const WorkerTask& task);
+/// Throws Error.
+WorkerTask read_task(const std::string& text, const std::string& name);
+
+/// variants/ID/variant.json: what a worker must know of its variant besides resolved.yaml.
+struct VariantNote {
+  VariantName name;
+  /// Pictures that are drawn by a node which an earlier variant has too show that variant: node, id.
+  std::vector<std::pair<std::string, std::string>> stamps;
+};
+void write_note(const std::filesystem::path& folder, const VariantNote& note);
+
+struct WorkerOptions {
+  std::filesystem::path sweep;       ///< the sweep's folder
+  std::string build;                 ///< what the sweep was begun with: another one is refused
+  std::vector<std::string> skipped;  ///< "ID/NODE": not run, nor what depends on it
+  std::filesystem::path scratch;     ///< where shared beginnings write their files; of no use afterwards
+  RunOptions run;
+};
+
+/// Runs a task in this process. Throws Error if a variant's folder is not what the sweep has made it.
+void run_worker(const WorkerTask& task, const WorkerOptions& options, Registry& registry, EventSink& events);
+
+}  // namespace atrium

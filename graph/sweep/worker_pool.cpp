@@ -1,0 +1,204 @@
+#include "graph/sweep/worker_pool.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "graph/api/suggest.hpp"
+#include "graph/cache/upkeep.hpp"
+#include "graph/run/clocks.hpp"
+
+namespace atrium {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr double grace = 5;  // seconds between asking a worker to end and ending it
+constexpr int tick_milliseconds = 20;
+
+/// "x/y" of "ID/x/y".
+std::string address(const std::string& node) { return node.substr(node.find('/') + 1); }
+
+/// The first error that a worker printed before it began.
+std::string said(const std::string& printed) {
+  constexpr std::string_view mark = "error: ";
+  const auto at = printed.find(mark);
+  const std::string text = at == std::string::npos ? printed : printed.substr(at + mark.size());
+  return text.substr(0, text.find('\n'));
+}
+
+}  // namespace
+
+struct WorkerPool::Worker {
+  PoolTask task;
+  WorkerProcess process;
+  double start, clock;
+  std::set<std::string> nodes = {};  ///< that run
+  bool begun = false, whole = false, killed_for_others = false;
+  std::string killed = {};                     ///< why, if we did
+  std::optional<std::uint64_t> expected = {};  ///< memory; nothing: it is to be alone
+  std::uint64_t memory = 0;
+
+  Worker(PoolTask given, int threads)
+      : task(std::move(given)), process(task.command(threads)), start(wall_seconds()), clock(start) {}
+};
+
+WorkerPool::WorkerPool(PoolOptions options, OnEvent on_event, OnEnd on_end)
+    : options_(options), on_event_(std::move(on_event)), on_end_(std::move(on_end)) {
+  if (options_.threads <= 0) options_.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  // What a worker leaves behind when it is killed becomes a child of this process, which ends it.
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+}
+
+WorkerPool::~WorkerPool() = default;
+
+bool WorkerPool::cancelled() const { return options_.cancel != nullptr && options_.cancel->load(); }
+
+void WorkerPool::add(PoolTask task) { waiting_.push_back(std::move(task)); }
+
+void WorkerPool::run() {
+  while (true) {
+    start_what_fits();
+    if (running_.empty()) return;
+    wait();
+    if (cancelled() && cancelled_at_ == 0) {
+      cancelled_at_ = wall_seconds();
+      for (const auto& worker : running_) worker->process.send(SIGTERM);
+    }
+    if (options_.memory > 0) check_memory();
+    for (const auto& worker : running_) check(*worker);
+    // Some have ended: their places are taken before others hear of it.
+    for (std::size_t i = 0; i < running_.size();) {
+      if (!running_[i]->process.ended()) {
+        ++i;
+        continue;
+      }
+      const std::unique_ptr<Worker> ended = std::move(running_[i]);
+      running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));
+      end(*ended);
+    }
+    if (on_tick) on_tick();
+  }
+}
+
+void WorkerPool::start_what_fits() {
+  const bool stopping = cancelled() || (options_.stop != nullptr && options_.stop->load());
+  if (stopping) return;
+  for (auto task = waiting_.begin();
+       task != waiting_.end() && running_.size() < static_cast<std::size_t>(options_.threads);) {
+    if (!fits(*task)) {
+      ++task;
+      continue;
+    }
+    PoolTask next = std::move(*task);
+    waiting_.erase(task);
+    start(std::move(next));
+    task = waiting_.begin();
+  }
+}
+
+bool WorkerPool::fits(const PoolTask& task) const {
+  if (running_.empty() || options_.memory == 0) return true;
+  const auto expected = task.memory();
+  if (task.alone || !expected) return false;
+  std::uint64_t needed = *expected;
+  for (const auto& worker : running_) {
+    if (!worker->expected) return false;
+    needed += std::max(*worker->expected, worker->memory);
+  }
+  return needed <= options_.memory;
+}
+
+void WorkerPool::start(PoolTask task) {
+  const auto places = std::min(static_cast<std::size_t>(options_.threads), running_.size() + waiting_.size() + 1);
+  const auto expected = task.alone ? std::nullopt : task.memory();
+  running_.push_back(
+      std::make_unique<Worker>(std::move(task), std::max(1, options_.threads / static_cast<int>(places))));
+  running_.back()->expected = expected;
+}
+
+void WorkerPool::wait() const {
+  std::vector<pollfd> files;
+  for (const auto& worker : running_)
+    for (const int file : {worker->process.events(), worker->process.output()})
+      if (file >= 0) files.push_back({file, POLLIN, 0});
+  ::poll(files.data(), files.size(), tick_milliseconds);
+}
+
+void WorkerPool::read(Worker& worker) {
+  for (const auto& line : worker.process.read()) {
+    const Json event = Json::parse(line, nullptr, false);
+    if (!event.is_object()) continue;
+    const std::string kind = event.value("e", "");
+    worker.begun = worker.begun || kind == "begin";
+    worker.whole = worker.whole || kind == "end";
+    if (kind == "started") worker.nodes.insert(event.value("node", ""));
+    if (kind == "finished") {
+      worker.nodes.erase(event.at("record").value("node", ""));
+      if (worker.task.timed_by_node) worker.clock = wall_seconds();
+    }
+    on_event_(worker.task, event);
+  }
+}
+
+void WorkerPool::check(Worker& worker) {
+  read(worker);
+  const double now = wall_seconds();
+  if (options_.timeout > 0 && now - worker.clock > options_.timeout && worker.killed.empty()) {
+    worker.killed = fmt::format("ended after {:g} s (--timeout)", options_.timeout);
+    worker.process.send(SIGKILL);
+  }
+  if (cancelled_at_ > 0 && now - cancelled_at_ > grace) worker.process.send(SIGKILL);
+}
+
+/// Ends the last worker that was started if all of them hold too much.
+void WorkerPool::check_memory() {
+  std::uint64_t sum = 0;
+  for (const auto& worker : running_) sum += worker->memory = worker->process.memory();
+  if (sum <= options_.memory) return;
+  Worker& last = *running_.back();
+  if (!last.killed.empty() || last.killed_for_others) return;
+  if (running_.size() > 1)
+    last.killed_for_others = true;
+  else
+    last.killed = fmt::format("ended when it held {} of memory (--mem)", size_text(last.memory));
+  last.process.send(SIGKILL);
+}
+
+void WorkerPool::end(Worker& worker) {
+  read(worker);  // the rest of what it said
+  const int status = *worker.process.ended();
+  const bool done = worker.whole && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  if (!done) end_orphans(processes());
+  if (worker.killed_for_others && !done && cancelled_at_ == 0) {
+    worker.task.alone = true;
+    waiting_.push_back(std::move(worker.task));
+    return;
+  }
+  PoolEnd end;
+  end.how = done ? PoolEnd::How::done : cancelled_at_ > 0 ? PoolEnd::How::cancelled : PoolEnd::How::crashed;
+  end.printed = worker.process.printed();
+  end.nodes.assign(worker.nodes.begin(), worker.nodes.end());
+  end.reason = !worker.killed.empty() ? worker.killed : how_ended(status);
+  if (!worker.begun && worker.killed.empty()) end.reason += ": " + said(end.printed);
+  if (worker.killed.empty() && WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+    end.reason += ", perhaps by the system for lack of memory";
+  std::vector<std::string> names;
+  for (const auto& node : end.nodes) names.push_back(address(node));
+  end.message = end.reason;
+  if (!names.empty()) end.message += fmt::format(" in node {}", fmt::join(names, " or "));
+  on_end_(worker.task, end);
+}
+
+std::vector<pid_t> WorkerPool::processes() const {
+  std::vector<pid_t> list;
+  for (const auto& worker : running_) list.push_back(worker->process.id());
+  return list;
+}
+
+}  // namespace atrium
