@@ -1,8 +1,8 @@
 #include "modules/plane/assignment.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include "modules/geometry/moments.hpp"
 
@@ -11,41 +11,57 @@ namespace {
 
 class Assigner {
  public:
-  Assigner(const MortonOrder& order, const PointOctree& octree, const std::vector<Patch>& patches,
-           const Tolerance& tolerance, std::vector<std::int32_t>& owner)
-      : order_(order), octree_(octree), patches_(patches), tolerance_(tolerance), owner_(owner) {
-    for (const Patch& patch : patches)
-      planes_.push_back({patch.plane.normal.cast<float>(), static_cast<float>(patch.plane.offset)});
+  Assigner(const MortonOrder& order, const PointOctree& octree, const std::vector<Patch>& patches, std::size_t first,
+           const Tolerance& tolerance, Assignment& assignment)
+      : order_(order), octree_(octree), patches_(patches), tolerance_(tolerance), assignment_(assignment) {
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+      planes_.push_back({patches[k].plane.normal.cast<float>(), static_cast<float>(patches[k].plane.offset)});
+      if (k >= first) all_.push_back(static_cast<std::uint32_t>(k));
+    }
   }
 
   void block(std::uint32_t root) const {
     const auto& nodes = octree_.nodes();
-    std::vector<std::uint32_t> near;
-    for (std::uint32_t k = 0; k < planes_.size(); ++k)
-      if (!nodes[root].misses(planes_[k], tolerance_.distance)) near.push_back(k);
-    std::vector<std::uint32_t> nearer;
-    std::vector<float> best;
-    for (std::uint32_t i = root; i < nodes[root].skip; ++i) {
-      const PointOctree::Node& node = nodes[i];
-      if (!node.leaf) continue;
-      nearer.clear();
-      for (const std::uint32_t k : near)
-        if (!node.misses(planes_[k], tolerance_.distance)) nearer.push_back(k);
-      best.assign(node.end - node.begin, std::numeric_limits<float>::infinity());
-      for (const std::uint32_t k : nearer) leaf(node, k, best);
+    std::vector<std::uint32_t> near, nearer;
+    narrow(nodes[root], all_, near);
+    for (std::uint32_t i = root; i < nodes[root].skip && !near.empty(); ++i) {
+      if (!nodes[i].leaf) continue;
+      narrow(nodes[i], near, nearer);
+      for (const std::uint32_t k : nearer) leaf(nodes[i], k);
     }
   }
 
  private:
-  void leaf(const PointOctree::Node& node, std::uint32_t k, std::vector<float>& best) const {
+  /// The patches that points of the node may support.
+  void narrow(const PointOctree::Node& node, const std::vector<std::uint32_t>& from,
+              std::vector<std::uint32_t>& to) const {
+    to.clear();
+    for (const std::uint32_t k : from)
+      if (!node.misses(planes_[k], tolerance_.distance) && !patches_[k].cells.misses(node.centre, node.half))
+        to.push_back(k);
+  }
+
+  void leaf(const PointOctree::Node& node, std::uint32_t k) const {
+    constexpr std::uint32_t batch = 32;
     const PointColumns& c = order_.columns;
-    const FloatPlane& plane = planes_[k];
-    for (std::uint32_t p = node.begin; p < node.end; ++p) {
-      const float d = std::abs(plane.normal.dot(c.point(p)) + plane.offset);
-      if (d > tolerance_.distance || d >= best[p - node.begin]) continue;
-      if (plane.normal.dot(c.normal(p)) < tolerance_.min_cosine || !patches_[k].cells.contains(c.point(p))) continue;
-      best[p - node.begin] = d;
-      owner_[p] = static_cast<std::int32_t>(k);
+    const Eigen::Vector3f normal = planes_[k].normal;
+    const float offset = planes_[k].offset;
+    const bool any_normal = tolerance_.min_cosine <= -1;
+    float* const best = assignment_.distance.data();
+    for (std::uint32_t begin = node.begin; begin < node.end; begin += batch) {
+      const std::uint32_t count = std::min(batch, node.end - begin);
+      std::array<float, batch> distance;
+      for (std::uint32_t i = 0; i < count; ++i)
+        distance[i] = std::abs(normal.x() * c.x[begin + i] +
+                               (normal.y() * c.y[begin + i] + normal.z() * c.z[begin + i]) + offset);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t p = begin + i;
+        if (distance[i] > tolerance_.distance || distance[i] >= best[p]) continue;
+        if (!any_normal && normal.dot(c.normal(p)) < tolerance_.min_cosine) continue;
+        if (!patches_[k].cells.contains(c.point(p))) continue;
+        best[p] = distance[i];
+        assignment_.owner[p] = static_cast<std::int32_t>(k);
+      }
     }
   }
 
@@ -53,8 +69,9 @@ class Assigner {
   const PointOctree& octree_;
   const std::vector<Patch>& patches_;
   Tolerance tolerance_;
-  std::vector<std::int32_t>& owner_;
+  Assignment& assignment_;
   std::vector<FloatPlane> planes_;
+  std::vector<std::uint32_t> all_;
 };
 
 PlanePrimitive fit_primitive(const Cloud& cloud, std::vector<std::uint32_t> inliers, const Eigen::Vector3d& side) {
@@ -77,11 +94,9 @@ PlanePrimitive fit_primitive(const Cloud& cloud, std::vector<std::uint32_t> inli
 
 }  // namespace
 
-std::vector<std::int32_t> assign_points(const MortonOrder& order, const PointOctree& octree,
-                                        const std::vector<Patch>& patches, const Tolerance& tolerance,
-                                        const Context& context) {
-  std::vector<std::int32_t> owner(order.index.size(), -1);
-  const Assigner assigner(order, octree, patches, tolerance, owner);
+void Assignment::add(const MortonOrder& order, const PointOctree& octree, const std::vector<Patch>& patches,
+                     std::size_t first, const Tolerance& tolerance, const Context& context) {
+  const Assigner assigner(order, octree, patches, first, tolerance, *this);
   const auto& blocks = octree.blocks();
   context.parallel_for(
       blocks.size(),
@@ -89,7 +104,6 @@ std::vector<std::int32_t> assign_points(const MortonOrder& order, const PointOct
         for (std::size_t i = begin; i < end; ++i) assigner.block(blocks[i]);
       },
       4);
-  return owner;
 }
 
 PlanePrimitives fit_primitives(const std::shared_ptr<const Cloud>& cloud, const MortonOrder& order,

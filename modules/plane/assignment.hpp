@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -16,11 +17,18 @@ struct Patch {
   CellSet cells;  ///< its connected component, and the cells that touch it
 };
 
-/// For each point, in Morton order, the nearest of the patches that it supports and lies over; -1: none. Of patches at
-/// the same distance the first wins.
-std::vector<std::int32_t> assign_points(const MortonOrder& order, const PointOctree& octree,
-                                        const std::vector<Patch>& patches, const Tolerance& tolerance,
-                                        const Context& context);
+/// For each point, in Morton order, the nearest of the patches that it supports and lies over (-1: none), and how far
+/// that is. Of patches at the same distance the first wins.
+struct Assignment {
+  std::vector<std::int32_t> owner;
+  std::vector<float> distance;  ///< metres
+
+  explicit Assignment(std::size_t points)
+      : owner(points, -1), distance(points, std::numeric_limits<float>::infinity()) {}
+  /// Takes in the patches from number `first` on; those before are known already.
+  void add(const MortonOrder& order, const PointOctree& octree, const std::vector<Patch>& patches, std::size_t first,
+           const Tolerance& tolerance, const Context& context);
+};
 
 /// The patches that own at least `min_points` points as primitives over the cloud: planes refitted to what they own and
 /// turned to the mean of their points' normals (to the patch's own normal where the cloud has none).

@@ -25,7 +25,11 @@ std::uint32_t TileTable::insert(std::uint64_t key) {
 
 CellSet::Rows& CellSet::rows(std::int32_t tile_u, std::int32_t tile_v) {
   const std::uint32_t tile = tiles_.insert(CellFrame::tile_key(tile_u, tile_v));
-  if (tile == rows_.size()) rows_.push_back({});
+  if (tile == rows_.size()) {
+    rows_.push_back({});
+    low_ = {std::min(low_[0], tile_u), std::min(low_[1], tile_v)};
+    high_ = {std::max(high_[0], tile_u), std::max(high_[1], tile_v)};
+  }
   return rows_[tile];
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace atrium::plane {
@@ -19,10 +20,8 @@ struct CellFrame {
   CellFrame(const Eigen::Vector3d& normal, double edge);
 
   /// The point's coordinates in the plane, in cells. Those further off than 10⁹ cells share one.
-  Eigen::Vector2f position(const Eigen::Vector3f& p) const {
-    const auto limited = [](float t) { return std::min(std::max(t, -1e9F), 1e9F); };
-    return {limited(u.dot(p)), limited(v.dot(p))};
-  }
+  Eigen::Vector2f position(const Eigen::Vector3f& p) const { return {limited(u.dot(p)), limited(v.dot(p))}; }
+  static float limited(float t) { return std::min(std::max(t, -1e9F), 1e9F); }
   static Index index(const Eigen::Vector2f& at) { return {floor(at.x()), floor(at.y())}; }
   static std::size_t place_in_tile(Index i) {
     constexpr std::uint32_t mask = (1U << tile_bits) - 1;
@@ -82,6 +81,18 @@ class CellSet {
     return tile != TileTable::absent && (rows_[tile][static_cast<std::size_t>(i.u & mask)] >> (i.v & mask) & 1) != 0;
   }
 
+  /// Whether no point of this box lies over any of them (true only if so): their tiles' bounds say it.
+  bool misses(const Eigen::Vector3f& centre, const Eigen::Vector3f& half) const {
+    constexpr float rim = 0.5F;  // of a tile, for what is rounded
+    const auto beyond = [&](const Eigen::Vector3f& axis, std::size_t a) {
+      const float scale = 1.0F / (1 << CellFrame::tile_bits);
+      const float at = CellFrame::limited(axis.dot(centre)) * scale;
+      const float reach = axis.cwiseAbs().dot(half) * scale + rim;
+      return at + reach < static_cast<float>(low_[a]) || at - reach > static_cast<float>(high_[a]) + 1;
+    };
+    return beyond(frame_.u, 0) || beyond(frame_.v, 1);
+  }
+
   /// The cells of a tile: a bit for each v in a row for each u.
   using Rows = std::array<std::uint16_t, 1U << CellFrame::tile_bits>;
   /// Puts in the cells of this tile and those that touch them.
@@ -93,6 +104,8 @@ class CellSet {
   CellFrame frame_;
   TileTable tiles_;
   std::vector<Rows> rows_;  ///< per tile
+  std::array<std::int32_t, 2> low_{std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max()};
+  std::array<std::int32_t, 2> high_{std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::min()};
 };
 
 }  // namespace atrium::plane

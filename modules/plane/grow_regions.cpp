@@ -1,11 +1,15 @@
 #include "modules/plane/grow_regions.hpp"
 
+#include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <set>
 #include <span>
+#include <utility>
 
 namespace atrium::plane {
 namespace {
@@ -23,16 +27,20 @@ double rms_distance(const Moments& moments, const Plane& plane) {
   return std::sqrt(std::max(0.0, squares) / n);
 }
 
-/// The occupied neighbours of each voxel: growing asks for them many times.
+/// The neighbours with free points of each voxel that has such: growing asks for them many times.
 class NeighbourLists {
  public:
   NeighbourLists(const VoxelGrid& grid, const Context& context)
       : begin_(grid.voxels().size()), end_(begin_.size()), lists_((begin_.size() + chunk_size - 1) / chunk_size) {
+    const std::vector<Voxel>& voxels = grid.voxels();
     context.parallel_chunks(begin_.size(), chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
       std::vector<std::uint32_t>& list = lists_[chunk];
       for (std::size_t v = begin; v < end; ++v) {
         begin_[v] = static_cast<std::uint32_t>(list.size());
-        grid.visit_neighbours(static_cast<std::uint32_t>(v), [&](std::uint32_t other) { list.push_back(other); });
+        if (voxels[v].moments.count > 0)
+          grid.visit_neighbours(static_cast<std::uint32_t>(v), [&](std::uint32_t other) {
+            if (voxels[other].moments.count > 0) list.push_back(other);
+          });
         end_[v] = static_cast<std::uint32_t>(list.size());
       }
     });
@@ -73,22 +81,18 @@ class Growth {
  private:
   std::vector<std::uint32_t> seeds() const {
     const std::vector<Voxel>& voxels = grid_.voxels();
-    std::vector<std::uint32_t> order;
-    for (std::uint32_t i = 0; i < voxels.size(); ++i)
-      if (voxels[i].planar) order.push_back(i);
+    std::vector<std::pair<double, std::uint32_t>> order;
     // Few points can lie flat by chance: the residual's uncertainty counts against them.
-    const auto doubt = [&](std::uint32_t i) {
-      return voxels[i].residual * (1 + 2 / std::sqrt(static_cast<double>(voxels[i].moments.count)));
-    };
-    std::vector<double> key(voxels.size());
-    for (const std::uint32_t i : order) key[i] = doubt(i);
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return key[a] != key[b] ? key[a] < key[b] : a < b; });
-    return order;
+    for (std::uint32_t i = 0; i < voxels.size(); ++i)
+      if (voxels[i].planar)
+        order.emplace_back(voxels[i].residual * (1 + 2 / std::sqrt(static_cast<double>(voxels[i].moments.count))), i);
+    tbb::this_task_arena::isolate([&] { tbb::parallel_sort(order.begin(), order.end()); });
+    std::vector<std::uint32_t> result(order.size());
+    for (std::size_t k = 0; k < order.size(); ++k) result[k] = order[k].second;
+    return result;
   }
 
   bool fits(const Voxel& voxel, const Plane& plane) const {
-    if (voxel.moments.count == 0) return false;
     if (voxel.planar && std::abs(voxel.normal.dot(plane.normal)) < limits_.min_cosine) return false;
     return rms_distance(voxel.moments, plane) <= limits_.distance;
   }
@@ -125,21 +129,27 @@ class Growth {
 
   /// Takes all voxels that can be reached; returns the last plane that was used for it.
   Plane spread(Region& region, std::uint32_t number) {
-    region.border.clear();
-    const std::vector<Voxel>& voxels = grid_.voxels();
     std::size_t next_fit = std::max<std::size_t>(4, region.voxels.size() + region.voxels.size() / 2);
-    for (std::size_t k = 0; k < region.voxels.size(); ++k) {
-      for (const std::uint32_t v : neighbours_[region.voxels[k]]) {
-        if (region_of_[v] == number) continue;
-        if (region_of_[v] == no_region && fits(voxels[v], region.plane)) {
-          take(region, v, number);
-        } else {
-          region.border.push_back(v);
-        }
-      }
-      if (region.voxels.size() < next_fit) continue;
+    const auto look_at = [&](std::uint32_t v) {
+      if (region_of_[v] == number) return;
+      if (region_of_[v] == no_region && fits(grid_.voxels()[v], region.plane))
+        take(region, v, number);
+      else
+        region.border.push_back(v);
+    };
+    const auto refit = [&] {
+      if (region.voxels.size() < next_fit) return;
       region.plane = fit(region.moments);
       next_fit = region.voxels.size() + region.voxels.size() / 2;
+    };
+    // What was reached before has no other neighbours than what stands at the border.
+    for (const std::uint32_t v : std::exchange(region.border, {})) {
+      look_at(v);
+      refit();
+    }
+    for (; region.spread < region.voxels.size(); ++region.spread) {
+      for (const std::uint32_t v : neighbours_[region.voxels[region.spread]]) look_at(v);
+      refit();
     }
     return region.plane;
   }

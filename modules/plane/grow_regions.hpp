@@ -10,7 +10,8 @@ namespace atrium::plane {
 /// Voxels whose points lie near one plane.
 struct Region {
   std::vector<std::uint32_t> voxels;
-  std::vector<std::uint32_t> border;  ///< occupied neighbours that are not its own; some more than once
+  std::vector<std::uint32_t> border;  ///< neighbours with free points that are not its own; some more than once
+  std::size_t spread = 0;             ///< how many of its voxels have been asked for their neighbours
   Moments moments;
   Plane plane;  ///< fitted to the moments, in the columns' frame; sign arbitrary
 };

@@ -115,8 +115,9 @@ void sort(std::vector<Item>& items, const Context& context) {
 
 }  // namespace
 
-void PointColumns::resize(std::size_t count) {
-  for (auto* column : {&x, &y, &z, &nx, &ny, &nz}) column->resize(count);
+void PointColumns::resize(std::size_t count, bool normals) {
+  for (auto* column : {&x, &y, &z}) column->resize(count);
+  for (auto* column : {&nx, &ny, &nz}) column->resize(normals ? count : 0);
 }
 
 void PointColumns::copy(std::size_t to, const PointColumns& other, std::size_t from) {
@@ -128,7 +129,8 @@ void PointColumns::copy(std::size_t to, const PointColumns& other, std::size_t f
   nz[to] = other.nz[from];
 }
 
-MortonOrder::MortonOrder(const Cloud& cloud, double cell, const Context& context) : centre(sampled_median(cloud)) {
+MortonOrder::MortonOrder(const Cloud& cloud, double cell, const Context& context, Normals normals)
+    : centre(sampled_median(cloud)) {
   std::vector<Item> items(cloud.size());
   context.parallel_for(items.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
@@ -137,7 +139,7 @@ MortonOrder::MortonOrder(const Cloud& cloud, double cell, const Context& context
   sort(items, context);
   codes.resize(items.size());
   index.resize(items.size());
-  columns.resize(items.size());
+  columns.resize(items.size(), normals == Normals::yes);
   context.parallel_for(items.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       codes[i] = items[i].code;
@@ -146,7 +148,7 @@ MortonOrder::MortonOrder(const Cloud& cloud, double cell, const Context& context
       columns.x[i] = p.x();
       columns.y[i] = p.y();
       columns.z[i] = p.z();
-      if (!cloud.has_normals()) continue;
+      if (normals == Normals::no || !cloud.has_normals()) continue;
       const Eigen::Vector3f& n = cloud.normals[items[i].index];
       columns.nx[i] = n.x();
       columns.ny[i] = n.y();

@@ -14,7 +14,7 @@ struct PointColumns {
   std::vector<float> x, y, z, nx, ny, nz;
 
   std::size_t size() const { return x.size(); }
-  void resize(std::size_t count);
+  void resize(std::size_t count, bool normals = true);
   void copy(std::size_t to, const PointColumns& other, std::size_t from);
   void take_out(std::size_t i) { nx[i] = ny[i] = nz[i] = 0; }
   bool is_live(std::size_t i) const { return nx[i] != 0 || ny[i] != 0 || nz[i] != 0; }
@@ -37,12 +37,13 @@ struct Tolerance {
 /// A cloud along a Morton curve of cubic cells of edge `cell`, 21 bits an axis, in a frame whose origin is the median
 /// of the points: a far outlier costs nothing (what lies beyond 2²⁰ cells is sorted as if it lay there).
 struct MortonOrder {
-  MortonOrder(const Cloud& cloud, double cell, const Context& context);
+  enum class Normals { no, yes };
+  MortonOrder(const Cloud& cloud, double cell, const Context& context, Normals normals = Normals::no);
 
   Eigen::Vector3d centre;            ///< of the columns' frame, in the cloud's frame
   std::vector<std::uint64_t> codes;  ///< ascending
   std::vector<std::uint32_t> index;  ///< into the cloud
-  PointColumns columns;              ///< normals are 0 where the cloud has none
+  PointColumns columns;              ///< with normals if asked: 0 where the cloud has none
 };
 
 /// An octree over columns in Morton order, stored in preorder. Boxes are tight around the points, so that the planes

@@ -37,13 +37,14 @@ Ransac::Out Ransac::run(const In& in, const Params& params, Context& context) {
   settings.min_points = params.min_points > 0 ? static_cast<std::size_t>(std::max(3, params.min_points))
                                               : std::max<std::size_t>(50, cloud.size() / 2000);
 
-  const MortonOrder order(cloud, params.distance / 2, context);
+  const MortonOrder order(cloud, params.distance / 2, context, MortonOrder::Normals::yes);
   const PointOctree octree(order.columns, order.codes, leaf_size, context);
   const LocalSpacing spacing(order, context);
   const Connectivity connectivity{spacing, params.cluster_distance};
   const std::vector<Patch> patches = PlaneSearch(order, connectivity, settings, context).run();
-  const std::vector<std::int32_t> owner = assign_points(order, octree, patches, settings.tolerance, context);
-  return {fit_primitives(in.cloud, order, owner, patches, settings.min_points, context)};
+  Assignment assignment(cloud.size());
+  assignment.add(order, octree, patches, 0, settings.tolerance, context);
+  return {fit_primitives(in.cloud, order, assignment.owner, patches, settings.min_points, context)};
 }
 
 }  // namespace atrium::plane

@@ -99,7 +99,8 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
   const MortonOrder order(cloud, settings.cell, context);
   const LocalSpacing spacing(order, context);
   if (params.voxel_size == 0) settings.level = automatic_level(order);
-  std::vector<std::int32_t> owner(cloud.size(), -1);
+  Assignment assignment(cloud.size());
+  const std::vector<std::int32_t>& owner = assignment.owner;
   GrowthLimits& limits = settings.limits;
   limits.distance = params.distance;
   if (params.distance == 0) {
@@ -120,8 +121,9 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
     std::vector<Patch> found = find_patches(cloud, order, spacing, owner, settings, params.cluster_distance, context);
     context.progress((static_cast<double>(pass) + 1) / (static_cast<double>(params.passes) + 1));
     if (found.empty()) break;
+    const std::size_t known = patches.size();
     std::move(found.begin(), found.end(), std::back_inserter(patches));
-    owner = assign_points(order, octree, patches, tolerance, context);
+    assignment.add(order, octree, patches, known, tolerance, context);
   }
   PlanePrimitives planes = fit_primitives(in.cloud, order, owner, patches, limits.min_points, context);
   if (params.max_planes > 0 && planes.primitives.size() > static_cast<std::size_t>(params.max_planes))

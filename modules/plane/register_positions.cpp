@@ -28,29 +28,37 @@ struct Pair {
   double area;
 };
 
-/// Evenly chosen points of one position.
-Cloud points_of(const Cloud& cloud, std::size_t position, std::size_t most) {
-  std::vector<std::uint32_t> own;
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (cloud.source[i] == position) own.push_back(static_cast<std::uint32_t>(i));
-  if (own.size() > most) {
-    std::vector<std::uint32_t> chosen(most);
-    for (std::size_t i = 0; i < most; ++i) chosen[i] = own[i * own.size() / most];
-    own = std::move(chosen);
+/// Evenly chosen points of each position.
+std::vector<std::vector<std::uint32_t>> points_of_positions(const Cloud& cloud, std::size_t most) {
+  const std::size_t positions = cloud.sensors.size();
+  std::vector<std::size_t> all(positions, 0);
+  for (const auto position : cloud.source)
+    if (position < positions) ++all[position];
+  // Of n points those with the numbers 0, n / most, 2 n / most …
+  std::vector<std::vector<std::uint32_t>> chosen(positions);
+  std::vector<std::size_t> met(positions, 0), next(positions, 0);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const std::size_t k = cloud.source[i];
+    if (k >= positions || met[k]++ != next[k]) continue;
+    chosen[k].push_back(static_cast<std::uint32_t>(i));
+    next[k] = all[k] <= most ? met[k] : chosen[k].size() * all[k] / most;
   }
-  return select(cloud, own);
+  return chosen;
 }
 
 std::vector<Patch> patches_of(const Cloud& cloud, const RegisterPositions::Params& params, Context& context) {
   constexpr std::size_t few = 100;
+  const auto chosen = points_of_positions(cloud, static_cast<std::size_t>(params.max_points));
+  std::vector<std::vector<Patch>> found(chosen.size());
+  context.parallel_chunks(chosen.size(), 1, [&](std::size_t position, std::size_t, std::size_t) {
+    if (chosen[position].size() < few) return;
+    const auto own = std::make_shared<Cloud>(select(cloud, chosen[position]));
+    const auto grown = RegionGrowing::run({own}, {}, context);
+    for (auto& measured : measure_planes(grown.planes, context))
+      if (measured.moments.count > 0) found[position].push_back({position, std::move(measured)});
+  });
   std::vector<Patch> patches;
-  for (std::size_t position = 0; position < cloud.sensors.size(); ++position) {
-    const auto own = std::make_shared<Cloud>(points_of(cloud, position, static_cast<std::size_t>(params.max_points)));
-    if (own->size() < few) continue;
-    const auto found = RegionGrowing::run({own}, {}, context);
-    for (auto& measured : measure_planes(found.planes, context))
-      if (measured.moments.count > 0) patches.push_back({position, std::move(measured)});
-  }
+  for (auto& part : found) std::move(part.begin(), part.end(), std::back_inserter(patches));
   return patches;
 }
 

@@ -53,7 +53,7 @@ VoxelGrid::VoxelGrid(const MortonOrder& order, double cell, std::uint32_t level,
         }
       },
       chunk_size);
-  hash();
+  make_blocks();
 }
 
 void VoxelGrid::measure(Voxel& voxel, const MortonOrder& order, const std::vector<std::int32_t>& owner,
@@ -78,11 +78,16 @@ void VoxelGrid::measure(Voxel& voxel, const MortonOrder& order, const std::vecto
                  fit.variances[0] < 0.25 * fit.variances[1];
 }
 
-void VoxelGrid::hash() {
-  std::size_t size = 16;
-  while (size < 3 * voxels_.size()) size *= 2;
-  table_.assign(size, {});
-  for (std::uint32_t i = 0; i < voxels_.size(); ++i) table_[slot(key(voxels_[i].index))] = {key(voxels_[i].index), i};
+void VoxelGrid::make_blocks() {
+  std::vector<Block> blocks;
+  for (std::uint32_t i = 0; i < voxels_.size(); ++i) {  // in Morton order: those of a block stand together
+    const auto [x, y, z] = voxels_[i].index;
+    const std::uint64_t own = key(x >> 2, y >> 2, z >> 2);
+    if (blocks.empty() || blocks.back().key != own) blocks.push_back({own, 0, i});
+    blocks.back().occupied |= std::uint64_t{1} << place(x, y, z);
+  }
+  table_.assign(std::bit_ceil(3 * blocks.size() + 16), {});
+  for (const Block& block : blocks) table_[slot(block.key)] = block;
 }
 
 Voxel::Index VoxelGrid::index_at(const Eigen::Vector3d& p) const {
