@@ -143,7 +143,7 @@ export function makePlots(data, root, actions) {
     for (const [value, label] of xs.ticks) {
       const at = xs.at(value);
       if (slanted) {
-        const letters = xs.ticks.length > 8 ? 8 : Math.max(6, Math.floor(room / 5.6) * (xs.ticks.length > 5 ? 1 : 1));
+        const letters = xs.ticks.length > 8 ? 8 : Math.max(6, Math.floor(room / 5.6));
         const text = label.length > letters ? `${label.slice(0, letters - 1)}…` : label;
         if (at - last < 12) continue;
         parts.push(s('text', { class: 'tick', x: at, y: bottom + 14, 'text-anchor': 'middle' }, text, s('title', {}, label)));

@@ -1,13 +1,10 @@
 // The model of a variant in 3D, and a second one beside it under the same camera.
-import { AmbientLight, Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, EdgesGeometry, HemisphereLight, LineBasicMaterial, LineSegments, MathUtils,
-         OrthographicCamera, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
+import { AmbientLight, Box3, Color, DirectionalLight, HemisphereLight, MathUtils, OrthographicCamera, PerspectiveCamera, Scene, Vector3,
+         WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { fileOf } from './data.js';
 import { check, choice, h } from './dom.js';
-import { parsePly } from './ply.js';
-
-const EDGE_LIMIT = 60000;  // triangles of a mesh whose edges are drawn
+import { dispose, parse, prepare } from './models.js';
 
 export function makeViewer(data, root) {
   const having = data.variants.filter((v) => v.models.length > 0);
@@ -130,46 +127,6 @@ export function makeViewer(data, root) {
         renderer.render(scenes[index], camera);
       });
       canvas.dataset.drawn = String(Number(canvas.dataset.drawn ?? 0) + 1);
-    });
-  }
-
-  async function parse(blob) {
-    const buffer = await blob.arrayBuffer();
-    if (blob.type !== 'model/gltf-binary') {
-      const group = parsePly(buffer);
-      group.rotation.x = -Math.PI / 2;
-      return group;
-    }
-    return (await new GLTFLoader().parseAsync(buffer, '')).scene;
-  }
-
-  const classOf = (mesh) => String(mesh.userData.class ?? mesh.parent?.userData.class ?? mesh.material.name ?? mesh.name).split(',')[0] || 'model';
-
-  function prepare(group) {
-    const meshes = [];
-    group.traverse((object) => { if (object.isMesh) meshes.push(object); });
-    for (const mesh of meshes) {
-      mesh.userData.layer = classOf(mesh);
-      mesh.material.flatShading = mesh.material.flatShading || !mesh.geometry.attributes.normal;
-      mesh.material.roughness = 1;
-      const triangles = (mesh.geometry.index?.count ?? mesh.geometry.attributes.position.count) / 3;
-      if (triangles > EDGE_LIMIT || mesh.userData.layer === 'object') continue;
-      const line = new LineSegments(outline(mesh.geometry), new LineBasicMaterial({ color: 0x1c2530, transparent: true, opacity: 0.55 }));
-      line.userData = { layer: mesh.userData.layer, edges: true };
-      mesh.material.polygonOffset = true;
-      mesh.material.polygonOffsetFactor = mesh.material.polygonOffsetUnits = 1;
-      mesh.add(line);
-    }
-  }
-  const outline = (geometry) => {
-    const lines = new EdgesGeometry(geometry, 5);
-    return lines.attributes.position ? lines : new BufferGeometry().setAttribute('position', new BufferAttribute(new Float32Array(), 3));
-  };
-
-  function dispose(group) {
-    group?.traverse((object) => {
-      object.geometry?.dispose();
-      if (object.material) { object.material.map?.dispose(); object.material.dispose(); }
     });
   }
 
