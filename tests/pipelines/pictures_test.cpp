@@ -31,7 +31,7 @@ class Pictures : public testing::Test {
 };
 
 TEST_F(Pictures, AllStagesStandOnOneSheet) {
-  const auto result = run_pipeline_file("stages.yaml", {scan, "paper/objects.depth=6"}, folder / "out");
+  const auto result = run_pipeline_file("stages.yaml", {scan, "model/objects.depth=6"}, folder / "out");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto [width, height] = size_of_png(folder / "out/stages.png");
   EXPECT_GT(width, 4 * 400);
@@ -41,9 +41,15 @@ TEST_F(Pictures, AllStagesStandOnOneSheet) {
     EXPECT_EQ(size_of_png(folder / "out" / (std::string(stage) + ".png")), std::pair(840, 630)) << stage;
 }
 
+TEST_F(Pictures, AreOfTheMethodThatTakesItsPlace) {
+  const auto result = run_pipeline_file("stages.yaml", {scan, "model.pipeline=pipelines/atrium.yaml"}, folder / "out");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GT(size_of_png(folder / "out/stages.png").first, 4 * 400);
+}
+
 TEST_F(Pictures, AColouredScanIsSeenFromWithinAndFromAbove) {
   const auto result =
-      run_pipeline_file("textured.yaml", {scan, "paper/objects.depth=6", "views.width=320"}, folder / "out");
+      run_pipeline_file("textured.yaml", {scan, "model/objects.depth=6", "views.width=320"}, folder / "out");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(size_of_png(folder / "out/textured_inside.png").first, 320);
   EXPECT_EQ(size_of_png(folder / "out/textured_isometric.png").first, 320);
