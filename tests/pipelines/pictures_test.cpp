@@ -42,7 +42,10 @@ TEST_F(Pictures, AllStagesStandOnOneSheet) {
 }
 
 TEST_F(Pictures, AreOfTheMethodThatTakesItsPlace) {
-  const auto result = run_pipeline_file("stages.yaml", {scan, "model.pipeline=pipelines/atrium.yaml"}, folder / "out");
+  const auto result = run_pipeline_file(
+      "stages.yaml",
+      {scan, "model.pipeline=pipelines/atrium.yaml", "model/objects.type=object.poisson", "model/objects.depth=6"},
+      folder / "out");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_GT(size_of_png(folder / "out/stages.png").first, 4 * 400);
 }
