@@ -1,10 +1,10 @@
 #pragma once
 #include <Eigen/Geometry>
+#include <array>
 #include <string>
 #include <vector>
 
-#include "modules/geometry/plane_frame.hpp"
-#include "modules/layout/free_space.hpp"
+#include "modules/layout/face_evidence.hpp"
 #include "modules/layout/openings.hpp"
 
 namespace atrium::layout {
@@ -14,32 +14,15 @@ struct FaceHole {
   std::string kind;  ///< as in BuildingOpening
   PlaneFrame frame;
   Eigen::AlignedBox2d box;               ///< in the frame
-  std::vector<Eigen::Vector3d> outline;  ///< counter-clockwise seen from the room
+  std::array<std::size_t, 4> support{};  ///< how many points say where each side is: left, right, bottom, top
+  bool foot_hidden = false;              ///< nothing says that what is below it, down to the face's foot, is solid
+  bool leads_on = false;                 ///< points behind it are a leaf, or a place to go to
 };
 
-/// From where the faces of a room were seen.
-struct RoomView {
-  std::vector<Eigen::Vector3d> places;
-  std::size_t enough = 1;  ///< how many of them must see a square
-};
+/// The rectangles that the evidence's hole squares fill, where something shows behind them. Uses the squares up.
+std::vector<FaceHole> face_holes(const BuildingFace& face, FaceEvidence& evidence, const Openings::Params& params);
 
-/// Finds the holes of one face after the other (see layout.openings).
-class HoleFinder {
- public:
-  HoleFinder(const Building& building, const Cloud& cloud, const Openings::Params& params, double pixel);
-
-  std::vector<FaceHole> holes(std::size_t face) const;
-
- private:
-  RoomView view_of(std::int32_t room) const;
-  bool seen_through(const BuildingFace& face, const FaceHole& hole) const;
-
-  const Building& building_;
-  const Cloud& cloud_;
-  const Openings::Params& params_;
-  double pixel_;
-  FreeSpace space_;
-  std::vector<RoomView> views_;  // per room
-};
+/// Its corners, counter-clockwise seen from the room.
+std::vector<Eigen::Vector3d> outline_of(const FaceHole& hole);
 
 }  // namespace atrium::layout

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace atrium::layout {
 namespace {
 
-constexpr double bucket_edge = 0.5;
 constexpr double outliers = 0.001;  // of the points on each side: they do not stretch the grid
 constexpr std::size_t most_voxels = std::size_t{1} << 33U;
 
@@ -30,6 +30,67 @@ Eigen::AlignedBox3d inner_box(const Cloud& cloud) {
   return box;
 }
 
+/// How many points there are in cubes of 10 cm and the 26 around each.
+class Density {
+ public:
+  using Index = Eigen::Array<std::int64_t, 3, 1>;
+  static constexpr double edge = 0.1;
+
+  Density(const Cloud& cloud, const Eigen::AlignedBox3d& box) : low_(box.min()) {
+    size_ = (box.sizes() / edge).array().ceil().cast<std::int64_t>() + 2;
+    counts_.assign(static_cast<std::size_t>(size_.prod()), 0);
+    for (const auto& p : cloud.points)
+      if (const auto i = index(p.cast<double>()); i != none) ++counts_[i];
+    for (const std::int64_t step : {std::int64_t{1}, size_[0], size_[0] * size_[1]}) add_neighbours(step);
+  }
+  /// 0 outside of the box.
+  std::uint32_t around(const Eigen::Vector3d& p) const {
+    const std::size_t i = index(p);
+    return i == none ? 0 : counts_[i];
+  }
+  /// What most points have.
+  std::uint32_t usual(const Cloud& cloud) const {
+    std::vector<std::uint32_t> all;
+    all.reserve(cloud.points.size());
+    for (const auto& p : cloud.points) all.push_back(around(p.cast<double>()));
+    if (all.empty()) return 0;
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::nth_element(all.begin(), middle, all.end());
+    return *middle;
+  }
+
+ private:
+  static constexpr std::size_t none = ~std::size_t{0};
+  std::size_t index(const Eigen::Vector3d& p) const {
+    const Index i = ((p - low_) / edge).array().floor().cast<std::int64_t>() + 1;
+    if ((i < 1).any() || (i >= size_ - 1).any()) return none;
+    return static_cast<std::size_t>((i[2] * size_[1] + i[1]) * size_[0] + i[0]);
+  }
+  void add_neighbours(std::int64_t step) {
+    std::uint32_t before = 0;
+    const auto n = static_cast<std::int64_t>(counts_.size());
+    std::vector<std::uint32_t> sums(counts_.size());
+    for (std::int64_t i = 0; i < n; ++i) {
+      before = i >= step ? counts_[static_cast<std::size_t>(i - step)] : 0;
+      const std::uint32_t after = i + step < n ? counts_[static_cast<std::size_t>(i + step)] : 0;
+      sums[static_cast<std::size_t>(i)] = before + counts_[static_cast<std::size_t>(i)] + after;
+    }
+    counts_ = std::move(sums);
+  }
+
+  Eigen::Vector3d low_;
+  Index size_{0, 0, 0};
+  std::vector<std::uint32_t> counts_;
+};
+
+/// How far around a point its surface is to be taken for closed: as far as six points lie around it on average, on a
+/// surface that crosses the cubes once. Nothing if the point is nearly alone.
+double reach_of(std::uint32_t around, std::uint32_t usual) {
+  constexpr double handful = 6, least_share = 0.1, side = 3 * Density::edge;
+  if (around < 2 || around < least_share * usual) return -1;
+  return side * std::sqrt(handful / (std::numbers::pi * around));
+}
+
 }  // namespace
 
 FreeSpace::FreeSpace(const Cloud& cloud, double voxel) : cloud_(cloud), voxel_(voxel) {
@@ -45,12 +106,13 @@ FreeSpace::FreeSpace(const Cloud& cloud, double voxel) : cloud_(cloud), voxel_(v
   begin_.assign(static_cast<std::size_t>(buckets_.prod()) + 1, 0);
   std::vector<std::uint32_t> inside;
   std::vector<std::size_t> place;
+  const Density density(cloud, box);
+  const std::uint32_t usual = density.usual(cloud);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const Eigen::Vector3d p = cloud.points[i].cast<double>() - low_;
     const Eigen::Array<std::int64_t, 3, 1> v = (p / voxel_).array().floor().cast<std::int64_t>();
     if ((v < 0).any() || (v >= size_).any()) continue;
-    const auto index = static_cast<std::size_t>((v[2] * size_[1] + v[1]) * size_[0] + v[0]);
-    occupied_[index / 64] |= std::uint64_t{1} << (index % 64);
+    if (const double reach = reach_of(density.around(p + low_), usual); reach >= 0) occupy(p / voxel_, reach / voxel_);
     const Eigen::Array<std::int64_t, 3, 1> b = (p / bucket_edge).array().floor().cast<std::int64_t>();
     inside.push_back(static_cast<std::uint32_t>(i));
     place.push_back(bucket(b[0], b[1], b[2]));
@@ -62,18 +124,18 @@ FreeSpace::FreeSpace(const Cloud& cloud, double voxel) : cloud_(cloud), voxel_(v
   for (std::size_t i = 0; i < inside.size(); ++i) order_[next[place[i]]++] = inside[i];
 }
 
-void FreeSpace::each_point_in(const Eigen::AlignedBox3d& box,
-                              const std::function<void(const Eigen::Vector3d&)>& visit) const {
-  const auto place = [&](const Eigen::Vector3d& p) -> Eigen::Array<std::int64_t, 3, 1> {
-    return ((p - low_) / bucket_edge).array().floor().cast<std::int64_t>().max(0).min(buckets_ - 1);
-  };
-  const auto first = place(box.min());
-  const auto last = place(box.max());
+/// Place and reach in voxels.
+void FreeSpace::occupy(const Eigen::Vector3d& place, double reach) {
+  const double half = reach < 1 ? 0 : reach;
+  const Eigen::Array<std::int64_t, 3, 1> first = (place.array() - half).floor().cast<std::int64_t>().max(0);
+  const Eigen::Array<std::int64_t, 3, 1> last = (place.array() + half).floor().cast<std::int64_t>().min(size_ - 1);
   for (std::int64_t z = first[2]; z <= last[2]; ++z)
     for (std::int64_t y = first[1]; y <= last[1]; ++y)
       for (std::int64_t x = first[0]; x <= last[0]; ++x) {
-        const std::size_t b = bucket(x, y, z);
-        for (std::uint32_t i = begin_[b]; i < begin_[b + 1]; ++i) visit(cloud_.points[order_[i]].cast<double>());
+        if (half > 0 && (Eigen::Array3d(x + 0.5, y + 0.5, z + 0.5) - place.array()).square().sum() > half * half)
+          continue;
+        const auto index = static_cast<std::size_t>((z * size_[1] + y) * size_[0] + x);
+        occupied_[index / 64] |= std::uint64_t{1} << (index % 64);
       }
 }
 

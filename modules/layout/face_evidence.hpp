@@ -1,0 +1,55 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "modules/geometry/plane_frame.hpp"
+#include "modules/layout/face_mask.hpp"
+#include "modules/layout/free_space.hpp"
+#include "modules/layout/openings.hpp"
+
+namespace atrium::layout {
+
+/// What the points say about one face, in the face's own frame.
+struct FaceEvidence {
+  PlaneFrame frame;
+  FaceMask open;                         ///< its solid squares are those that points behind the face show through
+  FaceMask mask;                         ///< no squares: the face was not looked at
+  std::vector<Eigen::Vector2d> on;       ///< points of the face
+  std::vector<Eigen::Vector3d> behind;   ///< points up to a metre behind it; the third number is how far
+  std::vector<Eigen::Vector2d> through;  ///< where the ways from the room's scanner places to points behind it cross it
+  bool ways_known = false;               ///< whether it is known from where points were seen; otherwise none cross it
+  double tolerance = 0;                  ///< points this near lie on the face, metres
+  double spacing = 0;                    ///< how far points stand for the surface around them, metres (FaceMask::cover)
+  bool looked_at() const { return mask.width() > 0; }
+};
+
+/// From where the faces of a room were seen.
+struct RoomView {
+  std::vector<Eigen::Vector3d> places;
+  std::size_t enough = 1;            ///< how many of them must see a square
+  std::vector<std::size_t> sensors;  ///< of the cloud; empty: the places are made up
+};
+
+/// Gathers the evidence of one face after the other (see layout.openings). Safe to use from several threads.
+class EvidenceFinder {
+ public:
+  EvidenceFinder(const Building& building, const Cloud& cloud, const Openings::Params& params);
+
+  /// Points and mask: which squares are solid, which hidden.
+  FaceEvidence gather(std::size_t face) const;
+  /// Turns hidden squares that were in sight, or through which points were seen, into holes.
+  void look_through(std::size_t face, FaceEvidence& evidence) const;
+
+ private:
+  RoomView view_of(std::int32_t room) const;
+  void find_ways(const BuildingFace& face, FaceEvidence& evidence) const;
+
+  const Building& building_;
+  const Cloud& cloud_;
+  const Openings::Params& params_;
+  FreeSpace space_;
+  std::vector<RoomView> views_;                      // per room
+  std::vector<std::vector<std::uint32_t>> seen_by_;  // per sensor its points
+};
+
+}  // namespace atrium::layout

@@ -1,0 +1,156 @@
+#include "modules/layout/opening_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "modules/layout/wall_pairs.hpp"
+
+namespace atrium::layout {
+namespace {
+
+Eigen::Vector3d moved_onto(const Plane& plane, const Eigen::Vector3d& p) {
+  return p - plane.normal * plane.signed_distance(p);
+}
+
+/// The hidden squares of each face of which a face behind it says `what`, and their new state.
+void take(const Building& building, Evidence& evidence, Square what) {
+  const auto behind = opposite_faces(building);
+  std::vector<std::vector<Eigen::Vector2i>> taken(evidence.size());
+  for (std::size_t f = 0; f < evidence.size(); ++f) {
+    const FaceMask& mask = evidence[f].mask;
+    for (int y = 0; y < mask.height(); ++y)
+      for (int x = 0; x < mask.width(); ++x) {
+        if (mask.at(x, y) != Square::hidden) continue;
+        const Eigen::Vector3d p = evidence[f].frame.to_space(mask.centre(x, y));
+        if (std::any_of(behind[f].begin(), behind[f].end(), [&](std::size_t other) {
+              return evidence[other].looked_at() && evidence[other].mask.at(evidence[other].frame.to_plane(p)) == what;
+            }))
+          taken[f].emplace_back(x, y);
+      }
+  }
+  for (std::size_t f = 0; f < evidence.size(); ++f)
+    for (const auto& square : taken[f]) evidence[f].mask.at(square.x(), square.y()) = what;
+}
+
+/// The second rectangle in the frame of the first.
+Eigen::AlignedBox2d box_in(const FaceHole& frame, const FaceHole& hole) {
+  Eigen::AlignedBox2d box;
+  for (const auto& p : outline_of(hole)) box.extend(frame.frame.to_plane(p));
+  return box;
+}
+
+/// Intersection over the smaller of two rectangles.
+double shared(const FaceHole& a, const FaceHole& b) {
+  const Eigen::AlignedBox2d box = box_in(a, b), both = a.box.intersection(box);
+  return both.isEmpty() ? 0 : both.volume() / std::min(a.box.volume(), box.volume());
+}
+
+/// Each side where more points say so.
+void agree(FaceHole& a, const FaceHole& b) {
+  const Eigen::AlignedBox2d box = box_in(a, b);
+  const bool turned = a.frame.u.dot(b.frame.u) < 0;  // the other's left is this one's right
+  for (std::size_t s = 0; s < 4; ++s) {
+    const std::size_t its = s < 2 && turned ? 1 - s : s;
+    if (b.support[its] <= a.support[s]) continue;
+    const auto axis = static_cast<Eigen::Index>(s / 2);
+    (s % 2 == 0 ? a.box.min()[axis] : a.box.max()[axis]) = s % 2 == 0 ? box.min()[axis] : box.max()[axis];
+  }
+}
+
+class Joining {
+ public:
+  Joining(const Building& building, const Found& found)
+      : building_(building), found_(found), behind_(opposite_faces(building)) {
+    for (const auto& holes : found) used_.emplace_back(holes.size(), false);
+  }
+
+  std::vector<BuildingOpening> run() {
+    for (std::size_t f = 0; f < found_.size(); ++f)
+      for (std::size_t h = 0; h < found_[f].size(); ++h)
+        if (!used_[f][h]) join(f, found_[f][h], used_[f].begin() + static_cast<std::ptrdiff_t>(h));
+    return std::move(openings_);
+  }
+
+ private:
+  void join(std::size_t f, FaceHole hole, std::vector<bool>::iterator used) {
+    constexpr double enough = 0.5;
+    *used = true;
+    std::size_t other = 0, twin = 0;
+    double most = enough;
+    for (const auto face : behind_[f])
+      for (std::size_t k = 0; k < found_[face].size(); ++k) {
+        if (used_[face][k]) continue;
+        const double share = shared(hole, found_[face][k]);
+        if (share <= most) continue;
+        most = share;
+        other = face;
+        twin = k;
+      }
+    if (most > enough) {
+      used_[other][twin] = true;
+      if (found_[other][twin].kind == "door") hole.kind = "door";
+      agree(hole, found_[other][twin]);
+      add(f, hole, &other);
+      return;
+    }
+    // The face behind, where it stands over the whole hole, was not seen there.
+    for (const auto face : behind_[f]) {
+      const auto outline = outline_of(hole);
+      if (!std::all_of(outline.begin(), outline.end(), [&](const Eigen::Vector3d& p) {
+            const BuildingFace& back = building_.faces[face];
+            return face_contains(building_, back, moved_onto(back.plane, p), 0.02);
+          }))
+        continue;
+      other = face;
+      add(f, hole, &other);
+      return;
+    }
+    if (!hole.leads_on && hole.kind == "door") hole.kind = "window";  // glazed down to the floor
+    add(f, hole, nullptr);
+  }
+
+  void add(std::size_t f, const FaceHole& hole, const std::size_t* other) {
+    BuildingOpening opening;
+    opening.kind = hole.kind;
+    opening.face_a = static_cast<std::int32_t>(f);
+    opening.room_a = building_.faces[f].room;
+    opening.outline_a = outline_of(hole);
+    if (other != nullptr) {
+      const BuildingFace& back = building_.faces[*other];
+      opening.face_b = static_cast<std::int32_t>(*other);
+      opening.room_b = back.room;
+      opening.thickness = std::abs(back.plane.signed_distance(opening.outline_a[0]));
+      for (auto it = opening.outline_a.rbegin(); it != opening.outline_a.rend(); ++it)
+        opening.outline_b.push_back(moved_onto(back.plane, *it));
+    }
+    openings_.push_back(std::move(opening));
+  }
+
+  const Building& building_;
+  const Found& found_;
+  std::vector<std::vector<std::size_t>> behind_;
+  std::vector<std::vector<bool>> used_;
+  std::vector<BuildingOpening> openings_;
+};
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> opposite_faces(const Building& building) {
+  std::vector<std::vector<std::size_t>> result(building.faces.size());
+  for (const auto& wall : building.walls) {
+    const auto a = static_cast<std::size_t>(wall.face_a), b = static_cast<std::size_t>(wall.face_b);
+    result[a].push_back(b);
+    result[b].push_back(a);
+  }
+  return result;
+}
+
+void take_solid_from_behind(const Building& building, Evidence& evidence) { take(building, evidence, Square::solid); }
+
+void take_holes_from_behind(const Building& building, Evidence& evidence) { take(building, evidence, Square::hole); }
+
+std::vector<BuildingOpening> joined(const Building& building, const Found& found) {
+  return Joining(building, found).run();
+}
+
+}  // namespace atrium::layout
