@@ -62,16 +62,22 @@ class Growth {
         neighbours_(grid, context),
         limits_(limits),
         context_(context),
-        region_of_(grid.voxels().size(), no_region) {}
+        region_of_(grid.voxels().size(), no_region),
+        hopeless_(grid.voxels().size(), false) {}
 
   std::vector<Region> run() {
     for (const std::uint32_t seed : seeds()) {
-      if (region_of_[seed] != no_region) continue;
+      if (region_of_[seed] != no_region || hopeless_[seed]) continue;
       Region region = grow(seed);
       if (region.moments.count >= limits_.min_points) {
         regions_.push_back(std::move(region));
       } else {
-        for (const std::uint32_t v : region.voxels) region_of_[v] = no_region;
+        // Seeds that are less flat would reach about the same.
+        const bool small = region.moments.count < limits_.min_points / 2;
+        for (const std::uint32_t v : region.voxels) {
+          region_of_[v] = no_region;
+          if (small) hopeless_[v] = true;
+        }
       }
       if (++grown_ % 1024 == 0) context_.check_cancelled();
     }
@@ -210,6 +216,7 @@ class Growth {
   GrowthLimits limits_;
   const Context& context_;
   std::vector<std::uint32_t> region_of_;
+  std::vector<bool> hopeless_;  ///< as a seed
   std::vector<Region> regions_;
   std::size_t grown_ = 0;
 };
