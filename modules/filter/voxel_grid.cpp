@@ -35,6 +35,8 @@ Colour mean_colour(const std::vector<Colour>& colours, Indices indices) {
 std::int32_t majority(const std::vector<std::int32_t>& labels, Indices indices, std::vector<std::int32_t>& scratch) {
   scratch.clear();
   for (const auto i : indices) scratch.push_back(labels[i]);
+  if (std::all_of(scratch.begin(), scratch.end(), [&](std::int32_t label) { return label == scratch.front(); }))
+    return scratch.front();
   std::sort(scratch.begin(), scratch.end());
   std::int32_t best = scratch.front();
   std::size_t most = 0;
@@ -92,7 +94,7 @@ void check_wild(const PointGrid& grid, double size, Context& context) {
 
 VoxelGrid::Out VoxelGrid::run(const In& in, const Params& params, Context& context) {
   const Cloud& cloud = *in.cloud;
-  const PointGrid grid(cloud.points, params.size, context);
+  const PointGrid grid(cloud.points, params.size, context, PointGrid::Lookup::no);
   check_wild(grid, params.size, context);
   const std::size_t cells = grid.cells().size();
   const std::size_t wild = grid.order().size() - grid.inside();

@@ -68,23 +68,17 @@ unsigned spread_tables(const std::array<std::int32_t, 3>& extent, std::array<std
 
 }  // namespace
 
-PointGrid::PointGrid(const std::vector<Eigen::Vector3f>& points, double cell_size, const Context& context)
+PointGrid::PointGrid(const std::vector<Eigen::Vector3f>& points, double cell_size, const Context& context,
+                     Lookup lookup)
     : cell_size_(cell_size), inverse_(1.0 / cell_size) {
   if (!(cell_size > 0) || !std::isfinite(inverse_) || !std::isfinite(cell_size))
     throw Error("a grid of cells of " + std::to_string(cell_size) + " m", "the cell size must be above 0");
   if (points.size() >= none) throw Error("too many points for a grid: " + std::to_string(points.size()));
+  blocks_.resize(2);  // both empty
   if (points.empty()) return;
   span(points, context);
-  std::vector<std::uint64_t> sorted_keys;
-  sort(keys(points, context), sorted_keys, context);
-  points_.resize(points.size());
-  context.parallel_for(
-      points.size(),
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) points_[i] = points[order_[i]];
-      },
-      chunk_size);
-  make_cells(sorted_keys, context);
+  const auto cell_keys = make_cells(sort(points, context), context);
+  if (lookup == Lookup::yes) make_blocks(cell_keys);
 }
 
 void PointGrid::span(const std::vector<Eigen::Vector3f>& points, const Context& context) {
@@ -103,70 +97,92 @@ void PointGrid::span(const std::vector<Eigen::Vector3f>& points, const Context& 
   key_bits_ = spread_tables(extent_, spread_);
 }
 
-std::vector<std::uint64_t> PointGrid::keys(const std::vector<Eigen::Vector3f>& points, const Context& context) const {
-  std::vector<std::uint64_t> result(points.size());
+std::uint64_t PointGrid::key(const Eigen::Vector3f& point) const {
+  const Eigen::Vector3d at = point.cast<double>() * inverse_ - base_;
+  const bool in =
+      at.x() >= 0 && at.y() >= 0 && at.z() >= 0 && at.x() < extent_[0] && at.y() < extent_[1] && at.z() < extent_[2];
+  return !in ? outside_key
+             : spread_[0][static_cast<std::size_t>(at.x())] | spread_[1][static_cast<std::size_t>(at.y())] |
+                   spread_[2][static_cast<std::size_t>(at.z())];
+}
+
+/// Puts the points into their order; returns their keys in it.
+std::vector<std::uint64_t> PointGrid::sort(const std::vector<Eigen::Vector3f>& points, const Context& context) {
+  const std::size_t total = points.size();
+  const auto index_bits = static_cast<unsigned>(std::bit_width(total));
+  order_.resize(total);
+  points_.resize(total);
+  if (key_bits_ + 1 + index_bits > 64) return sort_wide(points, context);
+  const std::uint64_t outside = std::uint64_t{1} << key_bits_;  // sorts behind all cells
+  std::vector<std::uint64_t> packed(total);
   context.parallel_for(
-      points.size(),
+      total,
       [&](std::size_t begin, std::size_t end) {
-        const Eigen::Vector3d limit(extent_[0], extent_[1], extent_[2]);
+        for (std::size_t i = begin; i < end; ++i) packed[i] = std::min(key(points[i]), outside) << index_bits | i;
+      },
+      chunk_size);
+  radix_sort(packed, index_bits, index_bits + key_bits_ + 1, context);
+  const std::uint64_t mask = (std::uint64_t{1} << index_bits) - 1;
+  context.parallel_for(
+      total,
+      [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-          const Eigen::Vector3d at = points[i].cast<double>() * inverse_ - base_;
-          const bool in = at.x() >= 0 && at.y() >= 0 && at.z() >= 0 && at.x() < limit.x() && at.y() < limit.y() &&
-                          at.z() < limit.z();
-          result[i] = !in ? outside_key
-                          : spread_[0][static_cast<std::size_t>(at.x())] |
-                                spread_[1][static_cast<std::size_t>(at.y())] |
-                                spread_[2][static_cast<std::size_t>(at.z())];
+          order_[i] = static_cast<std::uint32_t>(packed[i] & mask);
+          points_[i] = points[order_[i]];
+          packed[i] >>= index_bits;
+          if (packed[i] == outside) packed[i] = outside_key;
         }
       },
       chunk_size);
-  return result;
+  return packed;
 }
 
-void PointGrid::sort(const std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& sorted_keys,
-                     const Context& context) {
-  const std::size_t total = keys.size();
-  const auto index_bits = static_cast<unsigned>(std::bit_width(total));
-  order_.resize(total);
-  sorted_keys.resize(total);
-  if (key_bits_ + 1 + index_bits <= 64) {
-    const std::uint64_t outside = std::uint64_t{1} << key_bits_;  // sorts behind all cells
-    std::vector<std::uint64_t> packed(total);
-    for (std::size_t i = 0; i < total; ++i) packed[i] = std::min(keys[i], outside) << index_bits | i;
-    radix_sort(packed, index_bits, index_bits + key_bits_ + 1, context);
-    const std::uint64_t mask = (std::uint64_t{1} << index_bits) - 1;
-    for (std::size_t i = 0; i < total; ++i) {
-      order_[i] = static_cast<std::uint32_t>(packed[i] & mask);
-      const std::uint64_t key = packed[i] >> index_bits;
-      sorted_keys[i] = key == outside ? outside_key : key;
-    }
-  } else {
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> pairs(total);
-    for (std::size_t i = 0; i < total; ++i) pairs[i] = {keys[i], static_cast<std::uint32_t>(i)};
-    tbb::parallel_sort(pairs.begin(), pairs.end());
-    for (std::size_t i = 0; i < total; ++i) std::tie(sorted_keys[i], order_[i]) = pairs[i];
+/// The same where key and index do not fit into one number.
+std::vector<std::uint64_t> PointGrid::sort_wide(const std::vector<Eigen::Vector3f>& points, const Context& context) {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> pairs(points.size());
+  context.parallel_for(pairs.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) pairs[i] = {key(points[i]), static_cast<std::uint32_t>(i)};
+  });
+  tbb::parallel_sort(pairs.begin(), pairs.end());
+  std::vector<std::uint64_t> keys(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    std::tie(keys[i], order_[i]) = pairs[i];
+    points_[i] = points[order_[i]];
   }
+  return keys;
 }
 
-void PointGrid::make_cells(const std::vector<std::uint64_t>& sorted_keys, const Context& context) {
+/// Returns the cells' keys.
+std::vector<std::uint64_t> PointGrid::make_cells(const std::vector<std::uint64_t>& sorted_keys,
+                                                 const Context& context) {
   inside_ = static_cast<std::size_t>(std::lower_bound(sorted_keys.begin(), sorted_keys.end(), outside_key) -
                                      sorted_keys.begin());
-  std::vector<std::uint64_t> cell_keys;
-  for (std::size_t i = 0; i < inside_; ++i) {
-    if (i > 0 && sorted_keys[i] == sorted_keys[i - 1]) continue;
-    if (!cells_.empty()) cells_.back().end = static_cast<std::uint32_t>(i);
-    cells_.push_back({0, 0, 0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(inside_)});
-    cell_keys.push_back(sorted_keys[i]);
-  }
-  context.parallel_for(cells_.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Vector3d at = points_[cells_[i].begin].cast<double>() * inverse_ - base_;
-      cells_[i].x = static_cast<std::int32_t>(at.x());
-      cells_[i].y = static_cast<std::int32_t>(at.y());
-      cells_[i].z = static_cast<std::int32_t>(at.z());
+  std::vector<std::vector<std::uint32_t>> starts((inside_ + chunk_size - 1) / chunk_size);
+  context.parallel_chunks(inside_, chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (i == 0 || sorted_keys[i] != sorted_keys[i - 1]) starts[chunk].push_back(static_cast<std::uint32_t>(i));
+  });
+  std::vector<std::size_t> first(starts.size() + 1, 0);
+  for (std::size_t c = 0; c < starts.size(); ++c) first[c + 1] = first[c] + starts[c].size();
+  cells_.resize(first.back());
+  std::vector<std::uint64_t> cell_keys(cells_.size());
+  context.parallel_chunks(starts.size(), 1, [&](std::size_t c, std::size_t, std::size_t) {
+    for (std::size_t k = 0; k < starts[c].size(); ++k) {
+      const std::uint32_t begin = starts[c][k];
+      const Eigen::Vector3d at = points_[begin].cast<double>() * inverse_ - base_;
+      Cell& cell = cells_[first[c] + k];
+      cell.x = static_cast<std::int32_t>(at.x());
+      cell.y = static_cast<std::int32_t>(at.y());
+      cell.z = static_cast<std::int32_t>(at.z());
+      cell.begin = begin;
+      cell_keys[first[c] + k] = sorted_keys[begin];
     }
   });
-  make_blocks(cell_keys);
+  context.parallel_for(cells_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      cells_[i].end = i + 1 < cells_.size() ? cells_[i + 1].begin : static_cast<std::uint32_t>(inside_);
+  });
+  return cell_keys;
 }
 
 std::size_t PointGrid::slot(std::uint64_t block_key) const {

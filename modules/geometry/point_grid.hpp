@@ -24,8 +24,11 @@ class PointGrid {
   };
   static constexpr std::uint32_t none = 0xffffffffU;
 
-  /// Fewer than 2³² - 1 finite points; cell_size in metres, above 0. Throws Error if either does not hold.
-  PointGrid(const std::vector<Eigen::Vector3f>& points, double cell_size, const Context& context);
+  /// Fewer than 2³² - 1 finite points; cell_size in metres, above 0. Throws Error if either does not hold. Without
+  /// lookup, find() and neighbourhood() find nothing.
+  enum class Lookup { no, yes };
+  PointGrid(const std::vector<Eigen::Vector3f>& points, double cell_size, const Context& context,
+            Lookup lookup = Lookup::yes);
 
   double cell_size() const { return cell_size_; }
   const std::vector<Cell>& cells() const { return cells_; }
@@ -55,9 +58,10 @@ class PointGrid {
     std::uint32_t first = none;
   };
   void span(const std::vector<Eigen::Vector3f>& points, const Context& context);
-  std::vector<std::uint64_t> keys(const std::vector<Eigen::Vector3f>& points, const Context& context) const;
-  void sort(const std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& sorted_keys, const Context& context);
-  void make_cells(const std::vector<std::uint64_t>& sorted_keys, const Context& context);
+  std::uint64_t key(const Eigen::Vector3f& point) const;
+  std::vector<std::uint64_t> sort(const std::vector<Eigen::Vector3f>& points, const Context& context);
+  std::vector<std::uint64_t> sort_wide(const std::vector<Eigen::Vector3f>& points, const Context& context);
+  std::vector<std::uint64_t> make_cells(const std::vector<std::uint64_t>& sorted_keys, const Context& context);
   void make_blocks(const std::vector<std::uint64_t>& cell_keys);
   std::size_t slot(std::uint64_t block_key) const;
 

@@ -1,6 +1,8 @@
 #include "modules/geometry/radix_sort.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 namespace atrium {
 namespace {
@@ -15,11 +17,11 @@ struct Digit {
 };
 
 /// Where the values of each (chunk, bucket) go: counts, turned into running offsets with buckets as the outer loop.
-std::vector<std::uint32_t> offsets(const std::vector<std::uint64_t>& values, Digit digit, const Context& context) {
+std::vector<std::uint32_t> offsets(const std::uint64_t* values, std::size_t size, Digit digit, const Context& context) {
   const std::size_t buckets = digit.mask + 1;
-  const std::size_t chunks = (values.size() + chunk_size - 1) / chunk_size;
+  const std::size_t chunks = (size + chunk_size - 1) / chunk_size;
   std::vector<std::uint32_t> table(chunks * buckets, 0);
-  context.parallel_chunks(values.size(), chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+  context.parallel_chunks(size, chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     std::uint32_t* counts = table.data() + chunk * buckets;
     for (std::size_t i = begin; i < end; ++i) ++counts[digit(values[i])];
   });
@@ -33,6 +35,14 @@ std::vector<std::uint32_t> offsets(const std::vector<std::uint64_t>& values, Dig
   return table;
 }
 
+void sort_by(const std::uint64_t* from, std::uint64_t* to, std::size_t size, Digit digit, const Context& context) {
+  std::vector<std::uint32_t> table = offsets(from, size, digit, context);
+  context.parallel_chunks(size, chunk_size, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+    std::uint32_t* next = table.data() + chunk * (digit.mask + 1);
+    for (std::size_t i = first; i < last; ++i) to[next[digit(from[i])]++] = from[i];
+  });
+}
+
 }  // namespace
 
 void radix_sort(std::vector<std::uint64_t>& values, unsigned low, unsigned high, const Context& context) {
@@ -44,18 +54,18 @@ void radix_sort(std::vector<std::uint64_t>& values, unsigned low, unsigned high,
     return;
   }
   const unsigned passes = (high - low + max_digit - 1) / max_digit;
-  std::vector<std::uint64_t> target(values.size());
+  const auto spare = std::make_unique_for_overwrite<std::uint64_t[]>(values.size());
+  std::uint64_t *from = values.data(), *to = spare.get();
   for (unsigned pass = 0; pass < passes; ++pass) {
     const unsigned begin = low + (high - low) * pass / passes;
     const unsigned end = low + (high - low) * (pass + 1) / passes;
-    const Digit digit{begin, (std::uint64_t{1} << (end - begin)) - 1};
-    std::vector<std::uint32_t> table = offsets(values, digit, context);
-    context.parallel_chunks(values.size(), chunk_size, [&](std::size_t chunk, std::size_t first, std::size_t last) {
-      std::uint32_t* next = table.data() + chunk * (digit.mask + 1);
-      for (std::size_t i = first; i < last; ++i) target[next[digit(values[i])]++] = values[i];
-    });
-    values.swap(target);
+    sort_by(from, to, values.size(), {begin, (std::uint64_t{1} << (end - begin)) - 1}, context);
+    std::swap(from, to);
   }
+  if (from != values.data())
+    context.parallel_for(
+        values.size(), [&](std::size_t begin, std::size_t end) { std::copy(from + begin, from + end, to + begin); },
+        chunk_size);
 }
 
 }  // namespace atrium
