@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "modules/baseline/face_neighbours.hpp"
 #include "modules/baseline/input_mesh.hpp"
 #include "modules/baseline/planar_partition.hpp"
@@ -26,14 +28,17 @@ PlaneQuadric::Out PlaneQuadric::run(const In& in, const Params& params, Context&
   const PlanarPartition partition =
       planar_partition(mesh, neighbours, {params.distance, params.angle, params.min_area}, context);
   const CollapseLimits limits{target, params.max_error, params.border_weight, projection * params.distance};
+  Collapsed collapsed = collapsed_by_planes(mesh, neighbours, partition, limits, context);
   Out out;
-  bool too_far = false;
-  out.mesh = collapsed_by_planes(mesh, neighbours, partition, limits, context, too_far);
   out.planes = static_cast<std::int64_t>(partition.planes.size());
-  if (target > 0 && out.mesh.triangles.size() > target)
-    context.warn(fmt::format("{} triangles are left, {} were wanted: {}", out.mesh.triangles.size(), target,
-                             too_far ? "the rest would move further than 'max_error' lets it"
-                                     : "the rest are borders and corners of planes, or hold the topology"));
+  const std::size_t left = collapsed.mesh.triangles.size();
+  if (left > target && target > 0)
+    context.warn(fmt::format("{} triangles are left, {} were wanted: {}", left, target,
+                             collapsed.too_far ? "the rest would move further than 'max_error' lets it"
+                                               : "the rest hold the topology, or would turn triangles over"));
+  if (left < collapsed.with_borders)
+    context.info(fmt::format("borders of planes were given up from {} triangles on", collapsed.with_borders));
+  out.mesh = std::move(collapsed.mesh);
   return out;
 }
 

@@ -16,10 +16,12 @@ namespace atrium::baseline {
 ///    for the region's plane. Inside of a region vertices move freely in the plane, on borders only along them; where
 ///    three regions meet they stay. Edges whose collapse would change the topology (link condition, Dey et al. 1999),
 ///    or turn a triangle over, are kept, so a closed manifold stays one.
+/// 4. If that is not enough for a target, borders and corners are collapsed too, still by least error: small patches
+///    of furniture go before a wall's edge. A line in the log says from how many triangles on.
 ///
 /// It ends at the target, or where every other collapse would exceed `max_error`; without a target it goes as far as
-/// that. Borders and corners are never given up, so a target may be out of reach: a warning then says what is left, and
-/// whether it was `max_error` that ended it. The default leaves a noisy reconstruction far above a small target.
+/// that, and keeps all borders. A target that `max_error` or the topology leaves out of reach is warned of, with what is
+/// left. The default of `max_error` leaves a noisy reconstruction far above a small target.
 ///
 /// `primitives` is the region, by falling area, -1 for free triangles; classes and storeys are those of the triangles
 /// that are left, colours those of the vertices. The same bytes with any number of threads. Where all triangles are
@@ -28,6 +30,7 @@ namespace atrium::baseline {
 /// finite or corners that do not exist.
 struct PlaneQuadric {
   static constexpr std::string_view type = "baseline.plane_quadric";
+  static constexpr int version = 2;
   static constexpr std::string_view summary = "Decimates a mesh plane by plane, keeping their borders (plane-opt).";
   struct In {
     Input<Mesh> mesh;

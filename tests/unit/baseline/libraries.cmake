@@ -1,1 +1,2 @@
-list(APPEND libraries atrium_geometry atrium_metric TBB::tbb)
+find_package(rapidcheck REQUIRED)
+list(APPEND libraries atrium_geometry atrium_metric TBB::tbb rapidcheck)

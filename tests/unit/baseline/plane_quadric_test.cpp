@@ -131,6 +131,79 @@ TEST(PlaneQuadric, ATorusKeepsItsHole) {
   expect_closed_manifold(out.mesh);
 }
 
+/// What run() warned of and told.
+struct Told : ContextHost {
+  std::string text;
+  void log(Level /*level*/, std::string_view line) override { text += std::string(line) + "\n"; }
+};
+
+TEST(PlaneQuadric, ForATargetPatchesThatCostLeastAreGivenUpFirst) {
+  // A box with a low bump of 12 cm on one side: with borders kept, its corners stay; twelve triangles are the box's.
+  Mesh bump = box(Vector3d(4, 5, 2.5), 50);
+  std::size_t raised = 0;
+  for (auto& v : bump.vertices)
+    if (std::abs(v.z() - 2.5) < 1e-9 && v.x() > 1.9 && v.x() < 2.1 && v.y() > 2.45 && v.y() < 2.55) {
+      v.z() += 0.12;
+      ++raised;
+    }
+  ASSERT_GT(raised, 1U);
+  const PlaneQuadric::Params kept{.max_error = 0.001};
+  EXPECT_GT(decimated(bump, kept).mesh.triangles.size(), 12U);
+  const auto host = std::make_shared<Told>();
+  Context context(1, host);
+  const Mesh mesh = PlaneQuadric::run({input(bump)}, {.triangles = 12, .max_error = 0}, context).mesh;
+  EXPECT_EQ(mesh.triangles.size(), 12U);
+  EXPECT_NE(host->text.find("given up"), std::string::npos) << host->text;
+  expect_closed_manifold(mesh);
+  for (const double x : {0.0, 4.0})
+    for (const double y : {0.0, 5.0})
+      for (const double z : {0.0, 2.5}) EXPECT_LT(nearest_vertex(mesh, Vector3d(x, y, z)), 0.06);
+  EXPECT_NEAR(volume(mesh), 50, 0.3);  // the bump's planes pull at the corner that it went into
+}
+
+TEST(PlaneQuadric, BordersStayWhereTheTargetDoesNotNeedThem) {
+  // A staircase of ten steps, open at its sides: twenty rectangles.
+  Mesh stairs;
+  const int steps = 10;
+  const Vector3d across(0, 1, 0);
+  for (int i = 0; i < steps; ++i) {
+    const Vector3d foot(0.3 * i, 0, 0.2 * i), top = foot + Vector3d(0, 0, 0.2);
+    add_grid(stairs, foot, Vector3d(0, 0, 0.2), across, 4);
+    add_grid(stairs, top, Vector3d(0.3, 0, 0), across, 4);
+  }
+  const std::size_t all = stairs.triangles.size();
+  const Mesh open = welded(stairs);
+  const auto out = decimated(open, {.triangles = 2 * 2 * steps, .max_error = 0});
+  EXPECT_EQ(out.planes, 2 * steps);
+  EXPECT_EQ(out.mesh.triangles.size(), 2U * 2 * steps);
+  EXPECT_NEAR(area(out.mesh), steps * (0.2 + 0.3), 1e-9);
+  EXPECT_LT(out.mesh.triangles.size(), all);
+  // Half as many: some steps are gone, and the rest still climbs from end to end.
+  const Mesh fewer = decimated(open, {.triangles = 2 * steps, .max_error = 0}).mesh;
+  EXPECT_LE(fewer.triangles.size(), 2U * steps);
+  EXPECT_GE(fewer.triangles.size(), 2U);
+  EXPECT_EQ(validity(fewer, "edges.non_manifold"), 0);
+  EXPECT_EQ(validity(fewer, "components.all"), 1);
+  EXPECT_LT(greatest_distance(fewer, open), 0.2);
+}
+
+TEST(PlaneQuadric, TheLargestErrorHoldsBordersTooAndIsNamed) {
+  // A corner of a box moved anywhere is further off than two centimetres.
+  const auto host = std::make_shared<Told>();
+  Context context(1, host);
+  const Mesh cube = box(Vector3d(4, 5, 2.5), 10);
+  EXPECT_EQ(PlaneQuadric::run({input(cube)}, {.triangles = 8}, context).mesh.triangles.size(), 12U);
+  EXPECT_NE(host->text.find("12 triangles are left, 8 were wanted"), std::string::npos) << host->text;
+  EXPECT_NE(host->text.find("max_error"), std::string::npos);
+  const Mesh eight = decimated(cube, {.triangles = 8, .max_error = 0}).mesh;
+  EXPECT_EQ(eight.triangles.size(), 8U);
+  expect_closed_manifold(eight);
+  // A tetrahedron is the least that is closed.
+  const Mesh four = decimated(cube, {.triangles = 1, .max_error = 0}).mesh;
+  EXPECT_EQ(four.triangles.size(), 4U);
+  expect_closed_manifold(four);
+}
+
 TEST(PlaneQuadric, SmallRegionsAreFree) {
   Mesh step;
   add_grid(step, Vector3d::Zero(), Vector3d(1, 0, 0), Vector3d(0, 1, 0), 10);
