@@ -1,6 +1,11 @@
 #include "modules/io/read_layout.hpp"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "modules/io/json_text.hpp"
+#include "modules/io/paths.hpp"
 #include "modules/io/truth_json.hpp"
 
 namespace atrium::io {
@@ -14,10 +19,23 @@ GroundTruth read(const JsonField& root, const std::string& path, const Context& 
               "io.read_layout documents what it reads");
 }
 
+// A mesh or a cloud where the truth is asked for would only be no JSON.
+void refuse_geometry(const std::string& path) {
+  constexpr std::array<std::string_view, 12> geometry{".ply", ".obj", ".stl", ".glb", ".gltf", ".off",
+                                                      ".pcd", ".xyz", ".pts", ".las", ".laz",  ".vg"};
+  const std::string extension = extension_of(path);
+  if (std::find(geometry.begin(), geometry.end(), extension) == geometry.end()) return;
+  throw Error(
+      path + ": a layout is JSON, this is a " + extension + " file",
+      "give truth.json, a headset's layout.json or a list of room corners; a true mesh is read by io.read_mesh, "
+      "and metric.structure takes it as truth_mesh");
+}
+
 }  // namespace
 
 ReadLayout::Out ReadLayout::run(const In& /*in*/, const Params& params, Context& context) {
   const std::string& path = params.path.path;
+  refuse_geometry(path);
   const auto json = parsed_json(path);
   Out out;
   out.truth = read({json, path + ":"}, path, context);

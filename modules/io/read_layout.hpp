@@ -21,8 +21,8 @@ namespace atrium::io {
 ///   wall per side; one without has no faces.
 ///
 /// The plan has a storey per storey of the rooms; walls stand in it as the faces that they are, without thickness.
-/// Errors, naming the place in the file: no JSON, none of these keys, a missing or misshapen value, other units than
-/// metres. Warning: walls that close no room.
+/// Errors, naming the place in the file: no JSON (a mesh for instance), none of these keys, a missing or misshapen
+/// value, other units than metres. Warning: walls that close no room.
 struct ReadLayout {
   static constexpr std::string_view type = "io.read_layout";
   static constexpr std::string_view summary =

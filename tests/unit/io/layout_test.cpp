@@ -189,6 +189,18 @@ TEST_F(Layout, BadFilesAreErrorsThatNameThePlace) {
   EXPECT_THROW(ReadLayout::run({}, {{path("missing.json")}}, context), Error);
 }
 
+TEST_F(Layout, AMeshIsRefusedByItsName) {
+  for (const char* name : {"truth.ply", "truth.PLY", "scan.pcd", "model.glb", "model.obj"}) {
+    try {
+      ReadLayout::run({}, {{file(name, "ply\nformat ascii 1.0\n")}}, context);
+      FAIL() << name;
+    } catch (const Error& e) {
+      EXPECT_NE(std::string(e.what()).find("a layout is JSON, this is a ."), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.help()).find("truth_mesh"), std::string::npos) << e.help();
+    }
+  }
+}
+
 class QuestLayout : public Files, public testing::WithParamInterface<std::tuple<const char*, std::size_t, double>> {};
 
 TEST_P(QuestLayout, GivesARoomWithAllItsCorners) {
