@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <set>
+#include <string>
 
 #include "modules/metric/fewest_corners.hpp"
 #include "modules/metric/mesh_samples.hpp"
@@ -46,6 +47,14 @@ std::size_t count_polygons(const Mesh& mesh, const std::vector<bool>& counts, co
   return polygons.size();
 }
 
+void check_outline(const TrueRoom& room) {
+  const std::string name = "the outline of the true room '" + room.name + "'";
+  if (room.outline.size() < 3)
+    throw Error(name + " has " + std::to_string(room.outline.size()) + " corners", "three are the least");
+  for (const auto& p : room.outline)
+    if (!p.allFinite()) throw Error(name + " has a corner that is not finite");
+}
+
 }  // namespace
 
 Compactness::Out Compactness::run(const In& in, const Params& params, Context& context) {
@@ -67,6 +76,7 @@ Compactness::Out Compactness::run(const In& in, const Params& params, Context& c
   if (!in.truth) return out;
   std::size_t corners = 0, least = 0;
   for (const auto& room : in.truth->rooms) {
+    check_outline(room);
     const std::size_t n = fewest_corners(room.outline, params.sagitta);
     corners += n;
     least += 4 * n - 4;

@@ -19,7 +19,7 @@ namespace atrium::metric {
 /// compactness.corners (n of all rooms), compactness.least_triangles = Σ(4n − 4) and
 /// compactness.ratio = triangles / least_triangles. Triangles of the class
 /// object count nowhere. Errors: a vertex that is not finite, a triangle of vertices that do not exist; a truth without
-/// rooms.
+/// rooms, a room's outline of fewer than three corners or with one that is not finite.
 struct Compactness {
   static constexpr std::string_view type = "metric.compactness";
   static constexpr int version = 2;

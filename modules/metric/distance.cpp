@@ -189,6 +189,9 @@ void report_structure(Metrics& metrics, const Distance::In& in, const PointGrid&
 
 Distance::Out Distance::run(const In& in, const Params& params, Context& context) {
   if (in.cloud->points.empty()) throw Error("the cloud has no points: it has no distance to the mesh");
+  for (std::size_t i = 0; i < in.cloud->points.size(); ++i)
+    if (!in.cloud->points[i].allFinite())
+      throw Error("point " + std::to_string(i) + " of the cloud is not finite", "remove it: io.read_cloud does");
   if (in.truth && !in.structure)
     throw Error("truth is wired, but structure is not", "wire both: the structure's points are those near the truth");
   const Mesh mesh = about(*in.mesh, in.cloud->origin, "the mesh");

@@ -23,8 +23,9 @@ namespace atrium::metric {
 ///
 /// Metrics: distance.diagonal, then distance.{cloud_to_mesh,mesh_to_cloud}.{mean,rms,median,p95,trimmed_rms,max,
 /// within_rms} in m, .beyond as a share, and under distance.….relative the same lengths (but within_rms) over the
-/// diagonal. The frames may have different origins. Errors: a cloud without points, a mesh without area, truth without
-/// structure, a truth without area. A structure without area, or no point near the truth: a warning, and left out.
+/// diagonal. The frames may have different origins. Errors: a cloud without points or with one that is not finite, a
+/// mesh without area, truth without structure, a truth without area. A structure without area, or no point near the
+/// truth: a warning, and left out.
 struct Distance {
   static constexpr std::string_view type = "metric.distance";
   static constexpr int version = 2;

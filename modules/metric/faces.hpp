@@ -10,7 +10,8 @@ namespace atrium::metric {
 /// Metrics: faces.triangles, faces.vertices (those that triangles use), faces.area; with source primitives also
 /// faces.primitives (how many have triangles) and faces.polygons (pieces: triangles of one primitive that hang together
 /// over shared edges); with classes the same but vertices under faces.<class>, classes without triangles left out. An
-/// empty mesh counts 0. Error: a triangle of vertices that do not exist.
+/// empty mesh counts 0. Errors: a triangle of vertices that do not exist, a vertex that is not
+/// finite, a column of another length than the triangles.
 struct Faces {
   static constexpr std::string_view type = "metric.faces";
   static constexpr std::string_view summary = "Counts triangles, vertices and planar faces, in total and per class.";

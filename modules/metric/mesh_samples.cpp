@@ -2,8 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "graph/api/error.hpp"
 
@@ -50,6 +52,13 @@ void check_mesh(const Mesh& mesh, const std::string& what) {
       if (v >= mesh.vertices.size())
         throw Error(what + ": triangle " + std::to_string(i) + " names vertex " + std::to_string(v) + " of " +
                     std::to_string(mesh.vertices.size()));
+  const std::array<std::pair<const char*, std::size_t>, 3> columns{
+      {{"classes", mesh.classes.size()}, {"storeys", mesh.storeys.size()}, {"primitives", mesh.primitives.size()}}};
+  for (const auto& [name, size] : columns)
+    if (size != 0 && size != mesh.triangles.size())
+      throw Error(what + " has " + std::to_string(size) + " " + name + " for " + std::to_string(mesh.triangles.size()) +
+                      " triangles",
+                  "a column is empty or as long as what it describes");
 }
 
 std::vector<Eigen::Vector3d> vertices_about(const Mesh& mesh, const Eigen::Vector3d& origin) {

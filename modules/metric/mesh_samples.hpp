@@ -21,7 +21,8 @@ struct MeshSamples {
 /// Samples the triangles for which `wanted` is true (all if it is empty). Triangles without area give nothing.
 MeshSamples sample_mesh(const Mesh& mesh, double spacing, double max_samples, const std::vector<bool>& wanted = {});
 
-/// Throws Error if an index points past the vertices or a coordinate is not finite. `what` names the mesh.
+/// Throws Error if an index points past the vertices, a coordinate is not finite, or a column is neither empty nor as
+/// long as the triangles. `what` names the mesh.
 void check_mesh(const Mesh& mesh, const std::string& what);
 
 /// The mesh's vertices in local coordinates about another origin.

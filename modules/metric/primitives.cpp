@@ -20,6 +20,15 @@ constexpr double label_cosine = 0.7071067811865476;  // of 45°
 std::vector<std::int32_t> nearest_faces(const Cloud& cloud, const GroundTruth& truth, double max_distance,
                                         const Context& context) {
   check_mesh(truth.mesh, "the truth");
+  const auto& faces_of = truth.mesh.primitives;
+  if (faces_of.size() != truth.mesh.triangles.size() ||
+      std::any_of(faces_of.begin(), faces_of.end(),
+                  [&](std::int32_t f) { return f < 0 || static_cast<std::size_t>(f) >= truth.faces.size(); }))
+    throw Error(
+        "the truth's mesh does not say of which face each triangle is",
+        "wire a cloud with labels, or a truth whose mesh has its faces as primitives, as io.read_layout gives it");
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (!cloud.points[i].allFinite()) throw Error("point " + std::to_string(i) + " of the cloud is not finite");
   const auto vertices = vertices_about(truth.mesh, cloud.origin);
   const TriangleTree tree(vertices, truth.mesh.triangles);
   std::vector<std::int32_t> faces(cloud.size(), none);
@@ -43,6 +52,9 @@ std::vector<std::int32_t> nearest_faces(const Cloud& cloud, const GroundTruth& t
 std::vector<std::int32_t> faces_of_points(const Cloud& cloud, const GroundTruth& truth, double max_distance,
                                           const Context& context) {
   if (cloud.labels.empty()) return nearest_faces(cloud, truth, max_distance, context);
+  if (cloud.labels.size() != cloud.size())
+    throw Error("the cloud has " + std::to_string(cloud.labels.size()) + " labels for " + std::to_string(cloud.size()) +
+                " points");
   auto faces = cloud.labels;
   for (auto& f : faces) {
     if (f >= static_cast<std::int32_t>(truth.faces.size()))
@@ -73,6 +85,10 @@ Comparison compare(const PlanePrimitives& planes, const std::vector<std::int32_t
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> shared;
   for (std::uint32_t p = 0; p < planes.primitives.size(); ++p) {
     const auto& inliers = planes.primitives[p].inliers;
+    for (const auto i : inliers)
+      if (i >= faces.size())
+        throw Error("plane " + std::to_string(p) + " has point " + std::to_string(i) + " of " +
+                    std::to_string(faces.size()));
     const auto off = static_cast<std::size_t>(
         std::count_if(inliers.begin(), inliers.end(), [&](std::uint32_t i) { return faces[i] < 0; }));
     if (inliers.empty() || 2 * off > inliers.size()) {

@@ -32,8 +32,9 @@ namespace atrium::metric {
 /// that has most of the primitive's; primitives.coverage: share of the true regions' points that are in a primitive of
 /// which their face has most. Of the correct pairs of the lowest threshold: primitives.normal_error.{median,max} in deg
 /// and primitives.offset_error.{median,max} in m (distance between the planes at the middle of the shared points).
-/// What is undefined is left out. Errors: a truth without faces; a label beyond its faces; a threshold that is no whole
-/// percent.
+/// What is undefined is left out. Errors: a truth without faces; a label beyond its faces, or without labels a truth
+/// whose mesh does not tell its faces, or a point that is not finite; a plane with points that do not exist; a
+/// threshold that is no whole percent.
 struct Primitives {
   static constexpr std::string_view type = "metric.primitives";
   static constexpr std::string_view summary = "Recall, purity, splits and merges of plane primitives (Hoover et al.).";

@@ -110,6 +110,13 @@ TEST(MetricCompactness, EmptyAndBadInput) {
   Mesh bad = room();
   bad.vertices[0].x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(compactness(bad, truth_of_rooms({square})), Error);
+  bad = room();
+  bad.primitives.pop_back();
+  EXPECT_THROW(compactness(bad, truth_of_rooms({square})), Error);
+  auto outline = square;
+  outline[2].y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(compactness(room(), truth_of_rooms({square, outline})), Error);
+  EXPECT_THROW(compactness(room(), truth_of_rooms({{square[0], square[1]}})), Error);
 }
 
 }  // namespace

@@ -201,6 +201,8 @@ TEST(MetricDistance, DegenerateInput) {
   bad = square(2, 0);
   bad.vertices[2].x() = std::nan("");
   EXPECT_THROW(distance(one, bad), Error);
+  one.points.emplace_back(1, std::nanf(""), 2);
+  EXPECT_THROW(distance(one, square(2, 0)), Error);
 }
 
 TEST(MetricDistance, HugeMeshesAreSampledWithinTheLimit) {

@@ -48,6 +48,12 @@ TEST(MetricFaces, PlainEmptyAndBrokenMeshes) {
   EXPECT_EQ(value(faces({}), "faces.triangles"), 0);
   plain.triangles[3][0] = 24;
   EXPECT_THROW(faces(plain), Error);
+  Mesh broken = room();
+  broken.vertices[0].x() = std::nan("");
+  EXPECT_THROW(faces(broken), Error);
+  broken = room();
+  broken.primitives.push_back(0);
+  EXPECT_THROW(faces(broken), Error);
 }
 
 }  // namespace

@@ -173,6 +173,28 @@ TEST(MetricPrimitives, EmptyAndBadInput) {
   Primitives::Params params;
   params.thresholds = {0.555};
   EXPECT_THROW(s.compare({}, params), Error);
+  params.thresholds = {};
+  EXPECT_THROW(s.compare({}, params), Error);
+  EXPECT_THROW(s.compare({s.primitive(0, 1100, 1201)}), Error);  // of a point too many
+  other.cloud->labels.pop_back();
+  EXPECT_THROW(other.compare({}), Error);
+  // Without labels the truth's mesh is needed, and finite points.
+  other.cloud->labels.clear();
+  EXPECT_EQ(of(other.compare({}), "true"), 3);
+  other.cloud->points[5].z() = std::nanf("");
+  EXPECT_THROW(other.compare({}), Error);
+  other.cloud->points[5].z() = 0;
+  other.truth.mesh.primitives[1] = 3;
+  EXPECT_THROW(other.compare({}), Error);
+  other.truth.mesh.primitives.clear();
+  EXPECT_THROW(other.compare({}), Error);
+  // A cloud without points has no true regions: shares are not defined.
+  other.cloud->points.clear();
+  other.truth.mesh = {};
+  const auto none = other.compare({});
+  EXPECT_EQ(of(none, "true"), 0);
+  EXPECT_FALSE(has(none, "primitives.t80.recall"));
+  EXPECT_FALSE(has(none, "primitives.coverage"));
 }
 
 TEST(RegionOverlap, TheBestExplanationIsTakenOnce) {

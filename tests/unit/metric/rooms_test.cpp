@@ -194,6 +194,11 @@ TEST(MetricRooms, BadInput) {
       Error);
   EXPECT_THROW(compare(two, {}), Error);
   EXPECT_THROW(compare(plan({{{0, 0}, {1, 0}, {std::nan(""), 1}}}), two), Error);
+  EXPECT_THROW(compare(two, plan({{{0, 0}, {1, 0}, {std::nan(""), 1}}})), Error);
+  GroundTruth endless;
+  endless.rooms.push_back({"room", 0, {{0, 0, 0}, {1, 0, 0}, {1, std::nan(""), 0}}});
+  EXPECT_THROW(Rooms::run({input(two), OptionalInput<GroundTruth>(input(endless)), {}}, {}, context), Error);
+  EXPECT_THROW(Rooms::run({input(two), OptionalInput<GroundTruth>(input(GroundTruth{})), {}}, {}, context), Error);
   // A plan of nothing is a result.
   const auto m = compare({}, two);
   EXPECT_EQ(of(m, "recall"), 0);

@@ -241,6 +241,22 @@ TEST(MetricStructure, BadInput) {
   Mesh broken = room();
   broken.triangles[0][0] = 99;
   EXPECT_THROW(compare(broken, room()), Error);
+  broken = room();
+  broken.vertices[5].y() = std::nan("");
+  EXPECT_THROW(compare(broken, room()), Error);
+  EXPECT_THROW(compare(room(), broken), Error);
+  broken = room();
+  broken.classes.pop_back();
+  EXPECT_THROW(compare(broken, room()), Error);
+  EXPECT_THROW(compare(room(), broken), Error);
+  // Objects alone are no truth; flat and doubled points have no area.
+  Mesh objects = room();
+  objects.classes.assign(objects.classes.size(), SurfaceClass::object);
+  EXPECT_THROW(compare(room(), objects), Error);
+  Mesh spots = room();
+  for (auto& v : spots.vertices) v = V(1, 1, 1);
+  EXPECT_THROW(compare(room(), spots), Error);
+  EXPECT_EQ(value(compare(spots, room()), "structure.b50mm.completeness"), 0);
 }
 
 }  // namespace
