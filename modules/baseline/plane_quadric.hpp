@@ -20,8 +20,8 @@ namespace atrium::baseline {
 ///    of furniture go before a wall's edge. A line in the log says from how many triangles on.
 ///
 /// It ends at the target, or where every other collapse would exceed `max_error`; without a target it goes as far as
-/// that, and keeps all borders. A target that `max_error` or the topology leaves out of reach is warned of, with what is
-/// left. The default of `max_error` leaves a noisy reconstruction far above a small target.
+/// that, and keeps all borders. A target that `max_error` or the topology leaves out of reach is warned of, with what
+/// is left. The default of `max_error` leaves a noisy reconstruction far above a small target.
 ///
 /// `primitives` is the region, by falling area, -1 for free triangles; classes and storeys are those of the triangles
 /// that are left, colours those of the vertices. The same bytes with any number of threads. Where all triangles are
