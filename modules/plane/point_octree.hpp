@@ -38,8 +38,10 @@ struct Tolerance {
 /// of the points: a far outlier costs nothing (what lies beyond 2²⁰ cells is sorted as if it lay there).
 struct MortonOrder {
   enum class Normals { no, yes };
-  MortonOrder(const Cloud& cloud, double cell, const Context& context, Normals normals = Normals::no);
+  /// `shift`: the cells are moved back by so much along all axes, metres; the frame stays.
+  MortonOrder(const Cloud& cloud, double cell, const Context& context, Normals normals = Normals::no, double shift = 0);
 
+  double shift;
   Eigen::Vector3d centre;            ///< of the columns' frame, in the cloud's frame
   std::vector<std::uint64_t> codes;  ///< ascending
   std::vector<std::uint32_t> index;  ///< into the cloud

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "modules/plane/assignment.hpp"
@@ -87,6 +88,29 @@ std::vector<Patch> find_patches(const Cloud& cloud, const MortonOrder& order, co
   return patches;
 }
 
+/// The voxels moved by half an edge: the faces of a wall thicker than half an edge that share voxels do so no more.
+class Shifted {
+ public:
+  Shifted(const Cloud& cloud, const MortonOrder& order, const Settings& settings, const Context& context)
+      : order_(cloud, settings.cell, context, MortonOrder::Normals::no, settings.cell * (1U << settings.level) / 2),
+        spacing_(order_, context) {
+    place_.resize(cloud.size());
+    for (std::uint32_t i = 0; i < order.index.size(); ++i) place_[order.index[i]] = i;
+  }
+
+  std::vector<Patch> find(const Cloud& cloud, const std::vector<std::int32_t>& owner, const Settings& settings,
+                          double cluster_distance, const Context& context) const {
+    std::vector<std::int32_t> moved(owner.size());
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = owner[place_[order_.index[i]]];
+    return find_patches(cloud, order_, spacing_, moved, settings, cluster_distance, context);
+  }
+
+ private:
+  MortonOrder order_;
+  LocalSpacing spacing_;
+  std::vector<std::uint32_t> place_;  ///< in the unshifted order, of each point of the cloud
+};
+
 }  // namespace
 
 RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Context& context) {
@@ -117,10 +141,16 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
   constexpr float any_normal = -2;
   const Tolerance tolerance{static_cast<float>(limits.distance), any_normal};
   std::vector<Patch> patches;
+  const bool alternate = settings.level > least_level;  // finer voxels are thinner than walls
+  std::optional<Shifted> shifted;
   for (std::int64_t pass = 0; pass < params.passes; ++pass) {
-    std::vector<Patch> found = find_patches(cloud, order, spacing, owner, settings, params.cluster_distance, context);
+    if (alternate && pass == 1) shifted.emplace(cloud, order, settings, context);
+    std::vector<Patch> found =
+        shifted && pass % 2 == 1
+            ? shifted->find(cloud, owner, settings, params.cluster_distance, context)
+            : find_patches(cloud, order, spacing, owner, settings, params.cluster_distance, context);
     context.progress((static_cast<double>(pass) + 1) / (static_cast<double>(params.passes) + 1));
-    if (found.empty()) break;
+    if (found.empty() && !alternate) break;
     const std::size_t known = patches.size();
     std::move(found.begin(), found.end(), std::back_inserter(patches));
     assignment.add(order, octree, patches, known, tolerance, context);

@@ -35,7 +35,9 @@ std::vector<std::uint32_t> run_starts(const std::vector<std::uint64_t>& codes, s
 
 VoxelGrid::VoxelGrid(const MortonOrder& order, double cell, std::uint32_t level, const std::vector<std::int32_t>& owner,
                      const Planarity& planarity, const Context& context)
-    : edge_(cell * std::pow(2.0, level)), centre_(1 << (20 - static_cast<std::int32_t>(level))) {
+    : edge_(cell * std::pow(2.0, level)),
+      shift_(order.shift),
+      centre_(1 << (20 - static_cast<std::int32_t>(level))) {
   const std::uint32_t shift = 3 * level;
   const std::vector<std::uint32_t> starts = run_starts(order.codes, shift, context);
   voxels_.resize(starts.size());
@@ -91,7 +93,7 @@ void VoxelGrid::make_blocks() {
 }
 
 Voxel::Index VoxelGrid::index_at(const Eigen::Vector3d& p) const {
-  const auto axis = [&](double v) { return static_cast<std::int32_t>(std::floor(v / edge_)) + centre_; };
+  const auto axis = [&](double v) { return static_cast<std::int32_t>(std::floor((v + shift_) / edge_)) + centre_; };
   return {axis(p.x()), axis(p.y()), axis(p.z())};
 }
 

@@ -98,6 +98,7 @@ class VoxelGrid {
   void make_blocks();
 
   double edge_;
+  double shift_;         ///< of the order
   std::int32_t centre_;  ///< index of the voxel whose low corner is the frame's origin
   std::vector<Voxel> voxels_;
   std::vector<Block> table_;  ///< open addressing; its size is a power of two
