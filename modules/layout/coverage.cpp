@@ -12,7 +12,8 @@ namespace {
 /// which ceiling it shows, and whether anything stands there.
 class Layers {
  public:
-  Layers(const Structure& structure, double pixel, const StoreyCells& storey) : pixel_(pixel / fine) {
+  Layers(const Structure& structure, double pixel, const StoreyCells& storey)
+      : fine_(std::max(2, static_cast<int>(std::lround(pixel / (2 * finest)))) * 2), pixel_(pixel / fine_) {
     Eigen::AlignedBox2d box;
     for (const auto& v : storey.vertices) box.extend(v);
     low_ = box.min();
@@ -38,8 +39,8 @@ class Layers {
     const int x = column(p.x());
     const int y = row(p.y());
     Sample result;
-    for (int v = std::max(0, y - fine / 2); v <= std::min(height_ - 1, y + fine / 2); ++v)
-      for (int u = std::max(0, x - fine / 2); u <= std::min(width_ - 1, x + fine / 2); ++u) {
+    for (int v = std::max(0, y - fine_ / 2); v <= std::min(height_ - 1, y + fine_ / 2); ++v)
+      for (int u = std::max(0, x - fine_ / 2); u <= std::min(width_ - 1, x + fine_ / 2); ++u) {
         const std::size_t i = index(u, v);
         if (cell_[i] != cell && !(u == x && v == y)) continue;
         if (result.floor < 0) result.floor = floor_[i];
@@ -50,7 +51,7 @@ class Layers {
   }
 
  private:
-  static constexpr int fine = 4;
+  static constexpr double finest = 0.0125;  // metres: a tenth of a thin wall
 
   int column(double x) const { return std::clamp(static_cast<int>((x - low_.x()) / pixel_), 0, width_ - 1); }
   int row(double y) const { return std::clamp(static_cast<int>((y - low_.y()) / pixel_), 0, height_ - 1); }
@@ -108,6 +109,7 @@ class Layers {
     }
   }
 
+  int fine_;  ///< squares to a square of coverage, along each side
   double pixel_;
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
   int width_ = 0, height_ = 0;
@@ -156,6 +158,7 @@ void measure_cell(const Layers& layers, double pixel, double margin, const Store
       if (sample.any) ++any;
     }
   if (samples == 0) return;
+  cell.measured = true;
   cell.floors = shares(floors, samples);
   cell.ceilings = shares(ceilings, samples);
   cell.floor_cover = static_cast<double>(on_floor) / samples;

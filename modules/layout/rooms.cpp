@@ -6,6 +6,7 @@
 #include <boost/pending/disjoint_sets.hpp>
 #include <numeric>
 
+#include "modules/layout/hidden_walls.hpp"
 #include "modules/layout/min_cut.hpp"
 
 namespace atrium::layout {
@@ -30,14 +31,18 @@ bool has_ceiling(const StoreyCells& storey) {
 class Energy {
  public:
   Energy(const StoreyCells& storey, const Rooms::Params& params)
-      : storey_(storey), params_(params), ceiling_(has_ceiling(storey)), cut_(storey.cells.size() + 1) {}
+      : storey_(storey),
+        params_(params),
+        ceiling_(has_ceiling(storey)),
+        hidden_(hidden_walls(storey, ceiling_)),
+        cut_(storey.cells.size() + 1) {}
 
   /// Per cell: is it inside?
   std::vector<bool> solve() {
     constexpr double never = 1e9;
     cut_.add(outside(), 0, never);
     for (std::size_t i = 0; i < storey_.cells.size(); ++i) add_cell(i);
-    for (const auto& edge : storey_.edges) add_edge(edge);
+    for (std::size_t i = 0; i < storey_.edges.size(); ++i) add_edge(i);
     return cut_.solve();
   }
 
@@ -60,22 +65,26 @@ class Energy {
     cut_.add(i, inside * cell.area, params_.outside_weight * hidden * cell.area);
   }
 
-  void add_edge(const CellEdge& edge) {
+  void add_edge(std::size_t index) {
+    const CellEdge& edge = storey_.edges[index];
     const double area = length_of(storey_, edge) * (storey_.ceiling_height - storey_.floor_height);
     vote(edge.left, edge.right, edge.wall_left * area);
     vote(edge.right, edge.left, edge.wall_right * area);
-    const double left_inside = area * (params_.smoothness * (1 - edge.wall_left) + params_.complexity);
-    const double right_inside = area * (params_.smoothness * (1 - edge.wall_right) + params_.complexity);
+    const double left_inside =
+        area * (params_.smoothness * (1 - std::max(edge.wall_left, hidden_.left[index])) + params_.complexity);
+    const double right_inside =
+        area * (params_.smoothness * (1 - std::max(edge.wall_right, hidden_.right[index])) + params_.complexity);
     cut_.add_pair(element(edge.left), element(edge.right), right_inside, left_inside);
   }
 
   void vote(std::int32_t front, std::int32_t back, double area) {
-    if (front >= 0) cut_.add(element(front), params_.wall_weight * area, 0);
+    // The face of a long wall seems to run on over the end of another that meets it.
+    if (front >= 0) cut_.add(element(front), params_.wall_weight * area * (1 - hidden_.cells[element(front)]), 0);
     if (back < 0) return;
     // Where a wide floor or ceiling goes on behind it, it is no wall.
     const LayoutCell& cell = storey_.cells[element(back)];
     constexpr double sure = 0.6, wide = 0.5;
-    if (width_of(cell) < wide) {
+    if (width_of(storey_, cell) < wide) {
       cut_.add(element(back), 0, params_.wall_weight * area);
       return;
     }
@@ -83,16 +92,10 @@ class Energy {
     cut_.add(element(back), 0, params_.wall_weight * area * std::min(1.0, (1 - cover) / (1 - sure)));
   }
 
-  /// Area over the longest side: the thickness of what is between the faces of a wall.
-  double width_of(const LayoutCell& cell) const {
-    double longest = 0;
-    for (const auto e : cell.edges) longest = std::max(longest, length_of(storey_, storey_.edges[e]));
-    return longest > 0 ? cell.area / longest : 0;
-  }
-
   const StoreyCells& storey_;
   const Rooms::Params& params_;
   bool ceiling_;
+  HiddenWalls hidden_;
   MinCut cut_;
 };
 

@@ -13,7 +13,8 @@ namespace atrium::layout {
 /// - A wall was seen from inside: the cell before it should be inside, the one behind it outside (wall_weight times its
 ///   area, if it reaches the ceiling), the latter less the more of floor or ceiling was seen there.
 /// - A border between inside and outside should be a wall that looks inside: its area that is none costs
-///   `smoothness`, and all of it `complexity`.
+///   `smoothness`, and all of it `complexity`. Where both faces of a wall run on beside a cell that shows no ceiling,
+///   the wall goes on, hidden by what stands before it.
 ///
 /// Rooms are what hangs together, but not through a wall so thin that its two faces share a line; a room of less than
 /// min_area, or with less than min_cover of its floor and ceiling seen, is outside. Rooms are numbered by falling area,

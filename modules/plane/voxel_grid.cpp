@@ -35,9 +35,7 @@ std::vector<std::uint32_t> run_starts(const std::vector<std::uint64_t>& codes, s
 
 VoxelGrid::VoxelGrid(const MortonOrder& order, double cell, std::uint32_t level, const std::vector<std::int32_t>& owner,
                      const Planarity& planarity, const Context& context)
-    : edge_(cell * std::pow(2.0, level)),
-      shift_(order.shift),
-      centre_(1 << (20 - static_cast<std::int32_t>(level))) {
+    : edge_(cell * std::pow(2.0, level)), shift_(order.shift), centre_(1 << (20 - static_cast<std::int32_t>(level))) {
   const std::uint32_t shift = 3 * level;
   const std::vector<std::uint32_t> starts = run_starts(order.codes, shift, context);
   voxels_.resize(starts.size());

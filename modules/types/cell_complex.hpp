@@ -56,8 +56,8 @@ struct LayoutCell {
   static constexpr auto members() {
     return std::tuple{&LayoutCell::corners,       &LayoutCell::edges,     &LayoutCell::area,
                       &LayoutCell::floors,        &LayoutCell::ceilings,  &LayoutCell::floor_cover,
-                      &LayoutCell::ceiling_cover, &LayoutCell::any_cover, &LayoutCell::room,
-                      &LayoutCell::floor,         &LayoutCell::ceiling};
+                      &LayoutCell::ceiling_cover, &LayoutCell::any_cover, &LayoutCell::measured,
+                      &LayoutCell::room,          &LayoutCell::floor,     &LayoutCell::ceiling};
   }
   std::vector<std::uint32_t> corners;  ///< counter-clockwise; some may stand on a straight side
   std::vector<std::uint32_t> edges;    ///< edges[i] joins corners[i] and the next
@@ -66,6 +66,7 @@ struct LayoutCell {
   double floor_cover = 0;    ///< share of its area over which any floor was seen
   double ceiling_cover = 0;  ///< share of its area under which any ceiling was seen
   double any_cover = 0;      ///< share of its area with points between floor and ceiling
+  bool measured = false;     ///< false: the noise of the walls around it fills it, so that nothing is known of it
   // Written by the nodes that decide:
   std::int32_t room = -1;  ///< −1: outside, or in a wall
   std::int32_t floor = -1, ceiling = -1;

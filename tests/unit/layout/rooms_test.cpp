@@ -4,6 +4,8 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <array>
+
 #include "tests/unit/layout/cells.hpp"
 #include "tests/unit/layout/chain.hpp"
 
@@ -45,6 +47,42 @@ StoreyCells scanned(const std::vector<std::string>& picture, bool ceiling = true
   for (auto& cell : storey.cells) cell.room = -1;
   return storey;
 }
+/// Two rooms with a wall of 12 cm between them, of whose last metre nothing was seen but the share of a ceiling.
+StoreyCells half_hidden_wall(double ceiling) {
+  using Line = Arrangement::Line;
+  StoreyCells storey = cells_of(
+      {0, 0}, {8.12, 4},
+      {Line{Eigen::Vector2d::UnitX(), -4}, Line{Eigen::Vector2d::UnitX(), -4.12}, Line{Eigen::Vector2d::UnitY(), -3}});
+  for (auto& cell : storey.cells) {
+    const Eigen::Vector2d p = middle_of(storey, cell);
+    const bool wall = p.x() > 4 && p.x() < 4.12;
+    cell.ceiling_cover = !wall ? 1 : p.y() > 3 ? ceiling : 0;
+    cell.floor_cover = wall ? 0 : 0.8;
+    cell.measured = true;
+  }
+  for (auto& edge : storey.edges) {
+    const Eigen::Vector2d p = (storey.vertices[edge.from] + storey.vertices[edge.to]) / 2;
+    if (edge.left < 0 || edge.right < 0) {
+      (edge.left >= 0 ? edge.wall_left : edge.wall_right) = 1;
+    } else if (p.y() < 3 && (p.x() == 4 || p.x() == 4.12)) {
+      const bool to_the_right = storey.vertices[edge.to].y() < storey.vertices[edge.from].y();
+      const bool looks_right = p.x() > 4.1;
+      (to_the_right == looks_right ? edge.wall_left : edge.wall_right) = 1;
+    }
+  }
+  return storey;
+}
+/// The rooms at the two ends of the hidden piece, and of the piece itself.
+std::array<std::int32_t, 3> rooms_around(double ceiling) {
+  const CellComplex cells = decided({half_hidden_wall(ceiling)}).cells;
+  std::array<std::int32_t, 3> result{};
+  for (const auto& cell : cells.storeys[0].cells) {
+    const Eigen::Vector2d p = middle_of(cells.storeys[0], cell);
+    if (p.y() > 3) result.at(p.x() < 4 ? 0 : p.x() > 4.12 ? 1 : 2) = cell.room;
+  }
+  return result;
+}
+
 /// As a picture with rooms as letters.
 std::vector<std::string> picture_of(StoreyCells storey, int columns, int rows) {
   std::vector<std::string> result;
@@ -59,6 +97,15 @@ std::vector<std::string> picture_of(StoreyCells storey, int columns, int rows) {
   return result;
 }
 using Picture = std::vector<std::string>;
+
+TEST(Rooms, AWallGoesOnBehindWhatHidesIt) {
+  const auto hidden = rooms_around(0.2);
+  EXPECT_NE(hidden[0], hidden[1]);
+  EXPECT_EQ(hidden[2], -1);
+  const auto open = rooms_around(0.9);
+  EXPECT_EQ(open[0], open[1]);
+  EXPECT_EQ(open[2], open[0]);
+}
 
 TEST(Rooms, AreWhatWallsFloorsAndCeilingsEnclose) {
   const Picture picture{"......", ".aaa..", ".aaa..", ".a....", "......"};

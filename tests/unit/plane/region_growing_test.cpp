@@ -68,6 +68,22 @@ TEST(PlaneRegionGrowing, KeepsTheLargest) {
   for (const auto& p : planes.primitives) EXPECT_GT(std::abs(p.plane.normal.z()), 0.99);
 }
 
+TEST(PlaneRegionGrowing, FindsBothFacesOfAWallThinnerThanAVoxel) {
+  // The spacing asks for voxels of 16 cm; wherever they lie, some of these walls of 12 cm stand within one layer.
+  for (int step = 0; step < 8; ++step) {
+    const double x = 3 + 0.045 * step;
+    auto faces = box_faces({0, 0, 0}, {x, 3, 2.5}, true);
+    const auto more = box_faces({x + 0.12, 0, 0}, {9, 3, 2.5}, true);
+    faces.insert(faces.end(), more.begin(), more.end());
+    const PlanePrimitives planes =
+        grow(sample(faces, {.points = 40000, .normals = false}), {.min_voxel_size = 0.08, .passes = 3});
+    for (const auto& match : match_faces(faces, planes)) {
+      if (std::abs(faces[match.face].normal().x()) < 0.9) continue;
+      EXPECT_GT(match.best_iou, 0.8) << "face " << match.face << " at " << x;
+    }
+  }
+}
+
 TEST(PlaneRegionGrowing, SameBytesWithAnyNumberOfThreads) {
   const Cloud cloud = sample(furnished_flat(), {.points = 60000, .normals = false});
   const std::string expected = content_hash(grow(cloud));
