@@ -28,7 +28,7 @@ std::string digest_of(const std::byte* data, std::size_t size) {
 /// The head of a file that is whole.
 Head checked_head(const MappedFile& map, const std::filesystem::path& file) {
   Head head{};
-  const auto refuse = [&](const char* why) { throw Error(file.string() + " " + why); };
+  const auto refuse = [&](const char* why) { throw DamagedFile(file.string() + " " + why); };
   if (map.size() < sizeof(Head) + digest_size) refuse("is cut off");
   std::memcpy(&head, map.data(), sizeof head);
   if (std::memcmp(head.magic, magic, sizeof magic) != 0) refuse("is not a stored value of this version");
@@ -61,16 +61,28 @@ std::vector<FlatReference> write_blob(const std::filesystem::path& file, const F
   return writer.references();
 }
 
+std::uint64_t flat_size(const FlatType& type, const void* value) {
+  std::uint64_t bytes = 0;
+  FlatWriter writer([&](const void* /*data*/, std::size_t size) { bytes += size; });
+  type.write(value, writer);
+  writer.finish();
+  return bytes;
+}
+
 std::shared_ptr<const void> read_blob(const std::filesystem::path& file, const FlatType& type, const std::string& hash,
                                       const FlatReader::Resolve& resolve) {
   const MappedFile map(file);
   const Head head = checked_head(map, file);
-  if (head.layout != type.layout) throw Error(file.string() + " holds a value of another layout");
-  if (std::string_view(head.hash, sizeof head.hash) != hash) throw Error(file.string() + " holds another value");
+  if (head.layout != type.layout) throw DamagedFile(file.string() + " holds a value of another layout");
+  if (std::string_view(head.hash, sizeof head.hash) != hash) throw DamagedFile(file.string() + " holds another value");
   FlatReader reader(map.data() + sizeof head, map.size() - sizeof head - digest_size, resolve);
-  auto value = type.read(reader);
-  if (!reader.at_end()) throw Error(file.string() + " is longer than its value");
-  return value;
+  try {
+    auto value = type.read(reader);
+    if (!reader.at_end()) throw Error("it is longer than its value");
+    return value;
+  } catch (const Error& error) {
+    throw DamagedFile(file.string() + ": " + error.what());
+  }
 }
 
 void check_blob(const std::filesystem::path& file) { checked_head(MappedFile(file), file); }

@@ -4,9 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "graph/api/error.hpp"
 #include "graph/api/flat.hpp"
 
 namespace atrium {
+
+/// A file whose contents are not what they were when it was written: it is of no use, unlike one that cannot be read
+/// just now (no memory, too many open files, no permission).
+class DamagedFile : public Error {
+ public:
+  using Error::Error;
+};
 
 /// One value in a file: a head of 64 bytes (magic and version, byte order, layout, content hash), the flat form, and at
 /// the end the hash of all that precedes it. A file that is cut off, changed, of another layout or of another machine's
@@ -17,11 +25,15 @@ namespace atrium {
 std::vector<FlatReference> write_blob(const std::filesystem::path& file, const FlatType& type, const void* value,
                                       const std::string& hash);
 
-/// Maps the file, checks it and copies its arrays. Throws Error (what is wrong with the file).
+/// How many bytes that is, but for the head. Without what it shares.
+std::uint64_t flat_size(const FlatType& type, const void* value);
+
+/// Maps the file, checks it and copies its arrays. Throws DamagedFile (what is wrong with it), Error if it cannot be
+/// read, and what `resolve` throws unless that is an Error.
 std::shared_ptr<const void> read_blob(const std::filesystem::path& file, const FlatType& type, const std::string& hash,
                                       const FlatReader::Resolve& resolve);
 
-/// Checks a file without knowing its type. Throws Error.
+/// Checks a file without knowing its type. Throws DamagedFile, or Error if it cannot be read.
 void check_blob(const std::filesystem::path& file);
 
 /// The hash of a file's bytes. Throws Error if it cannot be read.

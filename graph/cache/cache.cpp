@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include "graph/api/context.hpp"
+#include "graph/api/files.hpp"
 #include "graph/cache/blob.hpp"
+#include "graph/cache/cache_folder.hpp"
 #include "graph/cache/mapped_file.hpp"
 #include "graph/cache/upkeep.hpp"
 #include "graph/run/clocks.hpp"
@@ -28,6 +28,13 @@ void make_folder(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error) throw Error("cannot make the folder " + folder.string() + ": " + error.message());
 }
+
+/// Nothing is wrong with a file that cannot be read now: no memory, too many open files, no permission. No Error, which
+/// would say that the value which shares it is damaged.
+class Passing : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// Removes a file that is of no use.
 void discard(const fs::path& file) {
@@ -58,7 +65,7 @@ Cache::Cache(CacheOptions options)
       files_(places_.hashes()),
       builds_(files_),
       rate_(first_rate) {
-  make_folder(places_.hashes());
+  make_cache_folder(places_);
 }
 
 Cache::~Cache() {
@@ -77,11 +84,16 @@ NodeKey Cache::key_of(const PipelineNode& node, const std::vector<std::vector<st
 
 std::optional<CacheRecord> Cache::find(const std::string& type, const std::string& key) {
   const fs::path file = places_.record(type, key);
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
-  std::ostringstream text;
-  text << in.rdbuf();
-  auto record = read_record(text.str());
+  std::error_code missing;
+  if (!fs::exists(file, missing)) return std::nullopt;
+  std::string text;
+  try {
+    text = read_text(file);
+  } catch (const Error& error) {
+    problem(fmt::format("{}: the node is run again", error.what()));
+    return std::nullopt;
+  }
+  auto record = read_record(text);
   if (!record || record->key != key) {
     discard(file);
     problem(file.string() + " is damaged: the node is run again");
@@ -134,15 +146,23 @@ bool Cache::has_value(const FlatType& type, const std::string& hash) const {
 
 std::shared_ptr<const void> Cache::load(const FlatType& type, const std::string& hash) {
   const std::lock_guard one_at_a_time(loading_);
-  return load_whole(type, hash);
+  try {
+    return load_whole(type, hash);
+  } catch (const std::exception& passing) {
+    problem(fmt::format("{}: it is computed again", passing.what()));
+    return nullptr;
+  }
 }
+
+/// Null if it is not there (any more). Throws Passing.
 
 std::shared_ptr<const void> Cache::load_whole(const FlatType& type, const std::string& hash) {
   if (auto value = alive(type, hash)) return value;
   const fs::path file = places_.value(type, hash);
   std::error_code missing;
   const std::uint64_t bytes = fs::file_size(file, missing);
-  if (missing) return nullptr;
+  if (missing == std::errc::no_such_file_or_directory) return nullptr;
+  if (missing) throw Passing(file.string() + ": " + missing.message());
   bool incomplete = false;
   const auto resolve = [&](const FlatType& shared, const std::string& shared_hash) {
     auto value = load_whole(shared, shared_hash);
@@ -156,10 +176,14 @@ std::shared_ptr<const void> Cache::load_whole(const FlatType& type, const std::s
     const std::lock_guard lock(mutex_);
     use_.loaded += bytes;
     return value;
-  } catch (const std::exception& error) {  // also out of memory: perhaps because of what the file says
-    discard(file);                         // so that it is kept again, with all its parts
-    if (!incomplete) problem(fmt::format("{}: it is computed again", error.what()));
+  } catch (const DamagedFile& damage) {
+    discard(file);  // so that it is kept again, with all its parts
+    if (!incomplete) problem(fmt::format("{}: it is computed again", damage.what()));
     return nullptr;
+  } catch (const Passing&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw Passing(error.what());
   }
 }
 
@@ -192,7 +216,7 @@ std::optional<std::string> Cache::keep_file(const fs::path& file) {
       touch(target);
       return hash;
     }
-    make_folder(target.parent_path());
+    make_room_for(target);
     write_bytes(target, map.data(), map.size());
     added(map.size());
     return hash;
@@ -206,8 +230,9 @@ void Cache::keep(const CacheRecord& record) {
   if (!works()) return;
   try {
     const std::string text = record_text(record);
-    make_folder(places_.records(record.type()));
-    write_bytes(places_.record(record.type(), record.key), text.data(), text.size());
+    const fs::path target = places_.record(record.type(), record.key);
+    make_room_for(target);
+    write_bytes(target, text.data(), text.size());
     added(text.size());
   } catch (const Error& error) {
     give_up(error.what());
@@ -245,38 +270,60 @@ void Cache::work() {
     const bool useful = !broken_;
     lock.unlock();
     const double start = wall_seconds();
-    if (useful) write(job);
+    const std::uint64_t written = useful ? write(job) : 0;
     const double took = wall_seconds() - start;
     job.data.reset();
     lock.lock();
-    if (useful && job.bytes >= measurable) rate_ = 0.5 * (rate_ + static_cast<double>(job.bytes) / (took + 1e-6));
+    if (written >= measurable) rate_ = 0.5 * (rate_ + static_cast<double>(written) / (took + 1e-6));
     waiting_bytes_ -= job.bytes;
     busy_ = false;
     idle_.notify_all();
   }
 }
 
-/// The value, then what it shares with others. A value without its parts is found out when it is loaded.
-void Cache::write(const Job& job) {
+/// The value, then what it shares with others: how many bytes were written. A value without its parts is found out when
+/// it is loaded.
+std::uint64_t Cache::write(const Job& job) {
+  std::uint64_t written = 0;
   try {
     const fs::path file = places_.value(*job.type, job.hash);
     std::error_code missing;
-    if (fs::exists(file, missing)) return;
-    make_folder(file.parent_path());
+    if (fs::exists(file, missing)) return 0;
+    make_room_for(file);
     const auto parts = write_blob(file, *job.type, job.data.get(), job.hash);
     const std::uint64_t bytes = fs::file_size(file, missing);
+    written = missing ? 0 : bytes;
     {
       const std::lock_guard lock(mutex_);
-      use_.kept += bytes;
+      use_.kept += written;
     }
-    added(bytes);
-    for (const auto& part : parts) {
-      remember(*part.type, part.hash, part.data);
-      write({part.type, part.data, part.hash, 0});
-    }
+    added(written);
+    for (const auto& part : parts) written += write_part(part);
   } catch (const std::exception& error) {
     give_up(error.what());
   }
+  return written;
+}
+
+std::uint64_t Cache::write_part(const FlatReference& part) {
+  remember(*part.type, part.hash, part.data);
+  std::error_code missing;
+  if (fs::exists(places_.value(*part.type, part.hash), missing)) return 0;
+  const std::uint64_t bytes = flat_size(*part.type, part.data.get());
+  const auto wait_for = [&](std::uint64_t more) {
+    const std::lock_guard lock(mutex_);
+    waiting_bytes_ += more;
+  };
+  wait_for(bytes);
+  const std::uint64_t written = write({part.type, part.data, part.hash, bytes});
+  wait_for(-bytes);
+  return written;
+}
+
+/// The folder for a new file; of all of the cache if somebody deleted it meanwhile.
+void Cache::make_room_for(const fs::path& file) {
+  if (!is_cache_folder(places_)) make_cache_folder(places_);
+  make_folder(file.parent_path());
 }
 
 /// Removes what is too much, now and then.
@@ -287,7 +334,16 @@ void Cache::added(std::uint64_t bytes) {
     if (new_bytes_ < std::max<std::uint64_t>(options_.most_bytes / 16, 1)) return;
     new_bytes_ = 0;
   }
-  collect_garbage(places_, options_.most_bytes);
+  collect();
+}
+
+/// What cannot be removed now is left for another time.
+void Cache::collect() {
+  try {
+    collect_garbage(places_, options_.most_bytes);
+  } catch (const std::exception& error) {
+    problem(error.what());
+  }
 }
 
 void Cache::finish() {
@@ -300,7 +356,7 @@ void Cache::finish() {
     if (little && used_since(places_.folder / collected, std::chrono::hours(1))) return;
     new_bytes_ = 0;
   }
-  collect_garbage(places_, options_.most_bytes);
+  collect();
 }
 
 Cache::Use Cache::use() const {

@@ -31,7 +31,7 @@ struct CacheOptions {
 /// what cannot be read counts as not there, what cannot be written is not kept, and `problems` says so.
 class Cache {
  public:
-  /// Throws Error if the folder cannot be made.
+  /// Throws NoCacheFolder if the folder holds something else, Error if it cannot be made.
   explicit Cache(CacheOptions options);
   ~Cache();
   Cache(const Cache&) = delete;
@@ -76,7 +76,10 @@ class Cache {
     std::uint64_t bytes;
   };
   void work();
-  void write(const Job& job);
+  std::uint64_t write(const Job& job);
+  std::uint64_t write_part(const FlatReference& part);
+  void make_room_for(const std::filesystem::path& file);
+  void collect();
   void problem(const std::string& text);
   void give_up(const std::string& why);
   bool works() const;

@@ -9,10 +9,11 @@
 
 namespace atrium {
 
-/// What a node will probably take, from the records of those like it.
+/// What a node will probably take, from the last 20 records of those like it.
 struct Cost {
-  double wall = 0;           ///< seconds, the median
-  std::uint64_t memory = 0;  ///< bytes above what is there when it begins, the most
+  double wall = 0;  ///< seconds, the median
+  /// Bytes above what is there when it begins: so much suffices nine times out of ten. Nothing: none of them ran alone.
+  std::optional<std::uint64_t> memory;
 };
 
 /// Reads the records of each node type once. Not safe to use from several threads.
@@ -23,13 +24,9 @@ class Costs {
   std::optional<Cost> of(const std::string& type, const std::string& node);
 
  private:
-  struct Seen {
-    std::vector<double> walls;
-    std::uint64_t memory = 0;
-  };
   struct OfType {
-    std::map<std::string, Seen> by_node;
-    Seen all;
+    std::map<std::string, Cost> by_node;
+    std::optional<Cost> all;
   };
   const OfType& read(const std::string& type);
 

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <ctime>
-#include <fstream>
 #include <system_error>
 #include <vector>
 
 #include "graph/api/context.hpp"
 #include "graph/api/error.hpp"
+#include "graph/api/files.hpp"
 #include "graph/api/walk.hpp"
 #include "graph/cache/blob.hpp"
 
@@ -28,10 +28,13 @@ struct stat status_of(const fs::path& file) {
   return info;
 }
 
+/// Without the device: machines that share a file system number them differently.
 std::string text_of(const struct stat& info) {
-  return fmt::format("{}:{}:{}:{}.{:09}:{}.{:09}", info.st_dev, info.st_ino, info.st_size, info.st_mtim.tv_sec,
-                     info.st_mtim.tv_nsec, info.st_ctim.tv_sec, info.st_ctim.tv_nsec);
+  return fmt::format("{}:{}:{}.{:09}:{}.{:09}", info.st_ino, info.st_size, info.st_mtim.tv_sec, info.st_mtim.tv_nsec,
+                     info.st_ctim.tv_sec, info.st_ctim.tv_nsec);
 }
+
+std::string text_with_device(const struct stat& info) { return fmt::format("{}:{}", info.st_dev, text_of(info)); }
 
 std::string hash_of_text(const std::string& text) {
   ContentHash hash;
@@ -39,17 +42,47 @@ std::string hash_of_text(const std::string& text) {
   return hash.hex();
 }
 
-/// All files in a folder and below, by name.
+/// All files in a folder and below, by name. Throws Error.
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied))
-    if (entry.is_regular_file()) files.push_back(entry.path());
+  std::error_code error;
+  fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, error);
+  for (const fs::recursive_directory_iterator end; !error && it != end; it.increment(error)) {
+    const bool is_file = it->is_regular_file(error);
+    if (error == std::errc::no_such_file_or_directory) error.clear();  // a link to nothing, or it has just gone
+    if (error) break;
+    if (is_file) files.push_back(it->path());
+  }
+  if (error) throw Error("cannot read the folder " + folder.string() + ": " + error.message());
   std::sort(files.begin(), files.end());
   return files;
 }
 
+/// What is remembered of a file: fingerprint, its hash, and the hash of both.
+std::string line_of(const std::string& fingerprint, const std::string& hash) {
+  const std::string text = fingerprint + " " + hash;
+  return text + " " + hash_of_text(text) + "\n";
+}
+
+/// The hash in a remembered line; empty if the line is not that of this fingerprint, or is damaged.
+std::string hash_in(const std::string& text, const std::string& fingerprint) {
+  constexpr std::size_t digits = 32;
+  if (!text.starts_with(fingerprint + " ")) return {};
+  std::string hash = text.substr(fingerprint.size() + 1, digits);
+  return text == line_of(fingerprint, hash) ? hash : std::string();
+}
+
 bool is_racy(const struct stat& info) {
   return std::time(nullptr) - std::max(info.st_mtim.tv_sec, info.st_ctim.tv_sec) < racy_seconds;
+}
+
+/// Empty if it cannot be read.
+std::string remembered_text(const fs::path& file) {
+  try {
+    return read_text(file);
+  } catch (const Error&) {
+    return {};
+  }
 }
 
 }  // namespace
@@ -71,33 +104,36 @@ std::string FileHashes::of(const fs::path& path) {
 
 std::string FileHashes::of_file(const fs::path& file) {
   const struct stat before = status_of(file);
-  const std::string fingerprint = text_of(before);
+  const bool racy = is_racy(before);  // before it is read, which may take longer than that
+  const std::string fingerprint = text_with_device(before);
   const fs::path remembered = folder_.empty() ? fs::path() : folder_ / hash_of_text(fingerprint);
   {
     const std::lock_guard lock(mutex_);
     if (const auto found = known_.find(fingerprint); found != known_.end()) return found->second;
   }
   std::string hash;
-  // The line's first half is the fingerprint itself: a damaged or foreign file is no answer.
-  if (std::ifstream in(remembered); !remembered.empty() && in) {
-    std::string whose;
-    if (in >> whose >> hash && whose == fingerprint && hash.size() == 32 && in.get() == '\n') {
-      const std::lock_guard lock(mutex_);
-      return known_[fingerprint] = hash;
-    }
+  if (!remembered.empty()) hash = hash_in(remembered_text(remembered), fingerprint);
+  if (!hash.empty()) {
+    const std::lock_guard lock(mutex_);
+    return known_[fingerprint] = hash;
   }
   hash = hash_of_file(file);
-  if (is_racy(before) || text_of(status_of(file)) != fingerprint) return hash;
+  if (racy || text_with_device(status_of(file)) != fingerprint) return hash;
   if (!remembered.empty()) {
     try {
       AtomicFile out(remembered);
-      out.write(fingerprint + " " + hash + "\n");
+      out.write(line_of(fingerprint, hash));
       out.publish();
     } catch (const Error&) {  // it is computed again next time
     }
   }
   const std::lock_guard lock(mutex_);
   return known_[fingerprint] = hash;
+}
+
+bool FileHashes::is_whole(const std::string& text, const std::string& name) {
+  const std::string fingerprint = text.substr(0, text.find(' '));
+  return !hash_in(text, fingerprint).empty() && hash_of_text(fingerprint) == name;
 }
 
 }  // namespace atrium

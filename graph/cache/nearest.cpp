@@ -1,9 +1,10 @@
 #include "graph/cache/nearest.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 #include <tuple>
+
+#include "graph/api/error.hpp"
+#include "graph/api/files.hpp"
 
 namespace atrium {
 namespace {
@@ -11,11 +12,11 @@ namespace {
 namespace fs = std::filesystem;
 
 std::optional<CacheRecord> read_file(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
-  std::ostringstream text;
-  text << in.rdbuf();
-  return read_record(text.str());
+  try {
+    return read_record(read_text(file));
+  } catch (const Error&) {
+    return std::nullopt;
+  }
 }
 
 std::string value_of(const std::vector<NodeKey::Field>& fields, const std::string& name) {

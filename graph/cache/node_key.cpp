@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "graph/api/plugin.hpp"
+#include "graph/api/plugin_data.hpp"
 
 namespace atrium {
 namespace {
@@ -39,12 +40,14 @@ std::vector<fs::path> own_libraries() {
   return files;
 }
 
-/// A plugin's library, its second one, and the programs beside them.
+/// A plugin's library, its second one, the programs beside them, and the files that its nodes read.
 std::vector<fs::path> plugin_files(const fs::path& library) {
   const std::string second = library.stem().string() + "-run.so";
   std::vector<fs::path> files{library};
   const auto good = [&](const std::string& name) { return name == second || name.starts_with("atrium-"); };
   add_files(library.parent_path(), good, files);
+  const auto data = plugin_data_files(library);
+  files.insert(files.end(), data.begin(), data.end());
   return files;
 }
 

@@ -21,8 +21,8 @@ struct NodeKey {
   std::string hex() const;
 };
 
-/// What a node type's code is: the bytes of its plugin (both libraries, and the helper programs beside it) and of
-/// Atrium's own libraries. Throws Error if a file of them cannot be read.
+/// What a node type's code is: the bytes of its plugin (both libraries, the helper programs beside it, the data files
+/// that it says it reads) and of Atrium's own libraries. Throws Error if a file of them cannot be read.
 class BuildIds {
  public:
   explicit BuildIds(FileHashes& files) : files_(files) {}

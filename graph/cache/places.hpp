@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <string>
 
+#include "graph/api/error.hpp"
 #include "graph/api/flat.hpp"
 
 namespace atrium {
@@ -12,9 +13,10 @@ namespace atrium {
 ///   values/AB/HASH-LAYOUT     a value by the hash of its contents (blob.hpp)
 ///   files/AB/HASH             a file that a node wrote, by the hash of its bytes
 ///   hashes/FINGERPRINT        hashes of files that nodes read (file_hashes.hpp)
+///   CACHEDIR.TAG              says that the folder is a cache (cache_folder.hpp)
 ///
 /// Nothing in it is ever changed: files appear whole (written beside, renamed) and go. All are checked when they are
-/// read. The time of change of a file is when it was last used.
+/// read, and nothing else in the folder is ever touched. The time of change of a file is when it was last used.
 struct CachePlaces {
   std::filesystem::path folder;
 

@@ -8,7 +8,7 @@ namespace atrium {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int version = 1;
+constexpr int version = 2;
 
 std::string hash_of(std::string_view text) {
   ContentHash hash;
@@ -82,7 +82,7 @@ CacheRecord from_json(const Json& json) {
   record.wall = json.at("wall_seconds").get<double>();
   record.cpu = json.at("cpu_seconds").get<double>();
   record.peak_memory = json.at("peak_memory").get<std::uint64_t>();
-  record.growth = json.at("growth").get<std::uint64_t>();
+  if (const Json& growth = json.at("growth"); !growth.is_null()) record.growth = growth.get<std::uint64_t>();
   return record;
 }
 
@@ -105,7 +105,7 @@ std::string record_text(const CacheRecord& record) {
                   {"wall_seconds", record.wall},
                   {"cpu_seconds", record.cpu},
                   {"peak_memory", record.peak_memory},
-                  {"growth", record.growth}};
+                  {"growth", record.growth ? Json(*record.growth) : Json()}};
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
   return hash_of(text) + "\n" + text;
 }

@@ -31,7 +31,8 @@ struct CacheRecord {
   std::vector<File> files;
   double wall = 0, cpu = 0;       ///< seconds
   std::uint64_t peak_memory = 0;  ///< of the process, bytes
-  std::uint64_t growth = 0;       ///< of the process's memory above what was there when the node began, at most, bytes
+  /// Of the process's memory above what was there when the node began, at most, bytes; nothing: it did not run alone.
+  std::optional<std::uint64_t> growth;
 
   std::string type() const { return fields.empty() ? std::string() : fields.front().value; }
 };

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,11 +10,14 @@
 #include <cerrno>
 #include <charconv>
 #include <csignal>
+#include <cstring>
 #include <fstream>
-#include <sstream>
 
 #include "graph/api/error.hpp"
+#include "graph/api/files.hpp"
 #include "graph/cache/blob.hpp"
+#include "graph/cache/cache_folder.hpp"
+#include "graph/cache/file_hashes.hpp"
 #include "graph/cache/record.hpp"
 
 namespace atrium {
@@ -23,30 +25,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Entry {
-  fs::path path;
-  std::uint64_t bytes = 0;
-  timespec used{};
-};
-
-/// Calls see(entry) for every file of the cache. What goes meanwhile is left out.
-template <class See>
-void for_each_file(const fs::path& folder, See see) {
-  std::error_code ignored;
-  for (fs::recursive_directory_iterator it(folder, ignored), end; it != end; it.increment(ignored)) {
-    struct stat info {};
-    if (::lstat(it->path().c_str(), &info) == 0 && S_ISREG(info.st_mode))
-      see(Entry{it->path(), static_cast<std::uint64_t>(info.st_blocks) * 512, info.st_mtim});
-  }
-}
-
-bool is_unfinished(const fs::path& file) {
-  return file.extension() == ".part" && file.filename().string().starts_with(".");
-}
-
 /// Whether the process that was writing the file (".NAME.PID-NUMBER.part") is gone. In a shared folder it may be one of
 /// another machine: then the file's age tells.
-bool is_abandoned(const Entry& entry) {
+bool is_abandoned(const CacheEntry& entry) {
   const std::string name = entry.path.stem().string();
   const std::size_t dot = name.rfind('.');
   pid_t process = 0;
@@ -60,30 +41,52 @@ bool remove_file(const fs::path& file) {
   return fs::remove(file, ignored);
 }
 
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
+/// Throws DamagedFile, or another Error if the file cannot be read.
+void check(const CacheEntry& entry) {
+  const fs::path& file = entry.path;
+  const auto refuse_unless = [&](bool good) {
+    if (!good) throw DamagedFile(file.string() + " is damaged");
+  };
+  if (entry.kind == CacheKind::values) {
+    check_blob(file);
+  } else if (entry.kind == CacheKind::files) {
+    refuse_unless(hash_of_file(file) == file.filename());
+  } else if (entry.kind == CacheKind::hashes) {
+    refuse_unless(FileHashes::is_whole(read_text(file), file.filename().string()));
+  } else {
+    const auto record = read_record(read_text(file));
+    refuse_unless(record && record->key == file.filename() && record->type() == file.parent_path().filename());
+  }
 }
 
-/// "" if the file is whole.
-std::string problem_of(const CachePlaces& places, const fs::path& file) {
-  const std::string kind = file.lexically_relative(places.folder).begin()->string();
+/// Nothing if the file is whole.
+std::optional<CacheProblem> problem_of(const CacheEntry& entry) {
   try {
-    if (kind == "values") {
-      check_blob(file);
-    } else if (kind == "files") {
-      if (hash_of_file(file) != file.filename()) return file.string() + " is damaged";
-    } else if (kind == "records") {
-      const auto record = read_record(text_of(file));
-      if (!record || record->key != file.filename() || record->type() != file.parent_path().filename())
-        return file.string() + " is damaged";
-    }
-  } catch (const Error& error) {
-    return error.what();
+    check(entry);
+    return std::nullopt;
+  } catch (const DamagedFile& damage) {
+    return CacheProblem{damage.what(), remove_file(entry.path)};
+  } catch (const std::exception& problem) {
+    return CacheProblem{problem.what(), false};
   }
-  return {};
 }
+
+/// Locks a folder unless another process has.
+class FolderLock {
+ public:
+  explicit FolderLock(const fs::path& folder) : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (file_ < 0) throw Error("cannot open the folder " + folder.string() + ": " + std::strerror(errno));
+    held_ = ::flock(file_, LOCK_EX | LOCK_NB) == 0;
+  }
+  ~FolderLock() { ::close(file_); }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  bool held() const { return held_; }
+
+ private:
+  int file_;
+  bool held_ = false;
+};
 
 }  // namespace
 
@@ -98,62 +101,56 @@ CacheContents::Share CacheContents::all() const {
 
 CacheContents contents_of(const CachePlaces& places) {
   CacheContents contents;
-  const auto add = [](CacheContents::Share& share, const Entry& entry) {
+  CacheContents::Share* const shares[] = {&contents.records, &contents.values, &contents.files, &contents.hashes};
+  for_each_entry(places, [&](const CacheEntry& entry) {
+    CacheContents::Share& share = *shares[static_cast<std::size_t>(entry.kind)];
     ++share.files;
     share.bytes += entry.bytes;
-  };
-  for_each_file(places.folder / "values", [&](const Entry& entry) { add(contents.values, entry); });
-  for_each_file(places.folder / "files", [&](const Entry& entry) { add(contents.files, entry); });
-  for_each_file(places.hashes(), [&](const Entry& entry) { add(contents.hashes, entry); });
-  for_each_file(places.folder / "records", [&](const Entry& entry) {
-    add(contents.records, entry);
-    if (!is_unfinished(entry.path)) ++contents.of_type[entry.path.parent_path().filename().string()];
+    if (entry.kind == CacheKind::records && !entry.unfinished)
+      ++contents.of_type[entry.path.parent_path().filename().string()];
   });
   return contents;
 }
 
-Removed collect_garbage(const CachePlaces& places, std::uint64_t most_bytes) {
+std::optional<Removed> collect_garbage(const CachePlaces& places, std::uint64_t most_bytes) {
+  check_cache_folder(places);
+  const FolderLock lock(places.folder);
+  if (!lock.held()) return std::nullopt;
   Removed removed;
-  const int lock = ::open(places.folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock < 0) return removed;
-  if (::flock(lock, LOCK_EX | LOCK_NB) == 0) {
-    std::vector<Entry> entries;
-    const auto remove = [&](const Entry& entry) {
-      if (!remove_file(entry.path)) return;
-      ++removed.files;
-      removed.bytes += entry.bytes;
-      removed.left -= entry.bytes;
-    };
-    for_each_file(places.folder, [&](Entry entry) {
-      if (entry.path.filename() == ".collected") return;
-      removed.left += entry.bytes;
-      if (!is_unfinished(entry.path))
-        entries.push_back(std::move(entry));
-      else if (is_abandoned(entry))
-        remove(entry);
-    });
-    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-      return std::tie(a.used.tv_sec, a.used.tv_nsec, a.path) < std::tie(b.used.tv_sec, b.used.tv_nsec, b.path);
-    });
-    for (const Entry& entry : entries) {
-      if (removed.left <= most_bytes) break;
+  std::vector<CacheEntry> entries;
+  const auto remove = [&](const CacheEntry& entry) {
+    if (!remove_file(entry.path)) return;
+    ++removed.files;
+    removed.bytes += entry.bytes;
+    removed.left -= entry.bytes;
+  };
+  for_each_entry(places, [&](const CacheEntry& entry) {
+    removed.left += entry.bytes;
+    if (!entry.unfinished)
+      entries.push_back(entry);
+    else if (is_abandoned(entry))
       remove(entry);
-    }
-    std::ofstream(places.folder / ".collected") << "";
+  });
+  std::sort(entries.begin(), entries.end(), [](const CacheEntry& a, const CacheEntry& b) {
+    return std::tie(a.used.tv_sec, a.used.tv_nsec, a.path) < std::tie(b.used.tv_sec, b.used.tv_nsec, b.path);
+  });
+  for (const CacheEntry& entry : entries) {
+    if (removed.left <= most_bytes) break;
+    remove(entry);
   }
-  ::close(lock);
+  std::ofstream(places.folder / ".collected") << "";
   return removed;
 }
 
-std::vector<std::string> verify_cache(const CachePlaces& places, std::uint64_t& checked) {
-  std::vector<std::string> problems;
-  for_each_file(places.folder, [&](const Entry& entry) {
-    if (is_unfinished(entry.path) || entry.path.parent_path() == places.folder) return;
+std::vector<CacheProblem> verify_cache(const CachePlaces& places, std::uint64_t& checked) {
+  check_cache_folder(places);
+  std::vector<CacheProblem> problems;
+  for_each_entry(places, [&](const CacheEntry& entry) {
+    if (entry.unfinished) return;
     ++checked;
-    std::string problem = problem_of(places, entry.path);
-    if (problem.empty() || !fs::exists(entry.path)) return;
-    remove_file(entry.path);
-    problems.push_back(std::move(problem));
+    auto problem = problem_of(entry);
+    if (!problem || (!problem->removed && !fs::exists(entry.path))) return;  // removed meanwhile by another process
+    problems.push_back(std::move(*problem));
   });
   return problems;
 }

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct CacheContents {
   std::map<std::string, std::uint64_t> of_type;  ///< node type: number of records
   Share all() const;
 };
+/// Throws Error if the folder cannot be read.
 CacheContents contents_of(const CachePlaces& places);
 
 struct Removed {
@@ -25,11 +27,18 @@ struct Removed {
   std::uint64_t left = 0;  ///< bytes
 };
 /// Removes what has not been used for longest until at most `most_bytes` are left, and unfinished files of processes
-/// that are gone. Does nothing while another process does it.
-Removed collect_garbage(const CachePlaces& places, std::uint64_t most_bytes);
+/// that are gone. Nothing: another process is doing it, and this one has not. What is not the cache's own stays: see
+/// for_each_entry(). Throws Error if the folder is not that of a cache, or cannot be read.
+std::optional<Removed> collect_garbage(const CachePlaces& places, std::uint64_t most_bytes);
 
-/// Checks every file; removes those that are damaged. Returns what was wrong.
-std::vector<std::string> verify_cache(const CachePlaces& places, std::uint64_t& checked);
+/// A file that is not as it should be.
+struct CacheProblem {
+  std::string what;
+  bool removed = false;  ///< no: it could not be checked (it may be whole), or could not be removed
+};
+/// Checks every file; removes those that are damaged. Throws Error if the folder is not that of a cache, or cannot be
+/// read.
+std::vector<CacheProblem> verify_cache(const CachePlaces& places, std::uint64_t& checked);
 
 /// "20 GB", "512 MiB", "1e9": bytes. Throws Error.
 std::uint64_t read_size(const std::string& text);

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "graph/cache/cache_folder.hpp"
 #include "graph/cache/upkeep.hpp"
 #include "graph/cli/verbs.hpp"
 
@@ -22,14 +23,19 @@ struct Options {
 CachePlaces places_of(const CacheChoice& choice) {
   const fs::path folder = choice.folder.empty() ? default_cache_folder() : fs::path(choice.folder);
   if (folder.empty()) throw Error("there is no cache: ATRIUM_CACHE is 'off'", "name one: --cache DIR");
-  return {fs::absolute(folder).lexically_normal()};
+  CachePlaces places{fs::absolute(folder).lexically_normal()};
+  check_cache_folder(places);
+  return places;
 }
 
 int stat(const Options& options) {
   const CachePlaces places = places_of(options.cache);
   const CacheContents contents = contents_of(places);
-  const std::pair<const char*, CacheContents::Share> shares[] = {
-      {"records", contents.records}, {"values", contents.values}, {"files", contents.files}, {"all", contents.all()}};
+  const std::pair<const char*, CacheContents::Share> shares[] = {{"records", contents.records},
+                                                                 {"values", contents.values},
+                                                                 {"files", contents.files},
+                                                                 {"hashes", contents.hashes},
+                                                                 {"all", contents.all()}};
   if (options.json) {
     Json json{{"folder", places.folder.string()}};
     for (const auto& [name, share] : shares) json[name] = {{"files", share.files}, {"bytes", share.bytes}};
@@ -46,17 +52,18 @@ int stat(const Options& options) {
 
 int gc(const Options& options) {
   const CachePlaces places = places_of(options.cache);
-  const Removed removed = collect_garbage(places, read_size(options.cache.size));
+  const auto removed = collect_garbage(places, read_size(options.cache.size));
+  if (!removed) throw Error("another process is removing files from " + places.folder.string(), "try again later");
   if (options.json) {
     fmt::print("{}\n", Json{{"folder", places.folder.string()},
-                            {"removed_files", removed.files},
-                            {"removed_bytes", removed.bytes},
-                            {"bytes", removed.left}}
+                            {"removed_files", removed->files},
+                            {"removed_bytes", removed->bytes},
+                            {"bytes", removed->left}}
                            .dump(2));
     return ok;
   }
-  fmt::print("removed {} ({}); {} are left\n", counted(removed.files, "file"), size_text(removed.bytes),
-             size_text(removed.left));
+  fmt::print("removed {} ({}); {} are left\n", counted(removed->files, "file"), size_text(removed->bytes),
+             size_text(removed->left));
   return ok;
 }
 
@@ -64,12 +71,16 @@ int verify(const Options& options) {
   const CachePlaces places = places_of(options.cache);
   std::uint64_t checked = 0;
   const auto problems = verify_cache(places, checked);
+  Json removed = Json::array();
+  Json left = Json::array();
+  for (const auto& problem : problems) (problem.removed ? removed : left).push_back(problem.what);
   if (options.json) {
-    const Json json{{"folder", places.folder.string()}, {"checked", checked}, {"removed", problems}};
+    const Json json{{"folder", places.folder.string()}, {"checked", checked}, {"removed", removed}, {"left", left}};
     fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
-    for (const auto& problem : problems) fmt::print("removed: {}\n", problem);
-    fmt::print("{} checked, {} removed\n", counted(checked, "file"), problems.size());
+    for (const auto& problem : problems) fmt::print("{}: {}\n", problem.removed ? "removed" : "left", problem.what);
+    fmt::print("{} checked, {} removed{}\n", counted(checked, "file"), removed.size(),
+               left.empty() ? "" : fmt::format(", {} could not be checked or removed", left.size()));
   }
   return problems.empty() ? ok : failed;
 }
@@ -78,10 +89,24 @@ int verify(const Options& options) {
 
 void add_cache_options(CLI::App& verb, CacheChoice& choice) {
   verb.add_option("--cache", choice.folder,
-                  "the folder of what earlier runs computed (default: ATRIUM_CACHE, or atrium in the user's cache)");
+                  "the folder of what earlier runs computed (default: ATRIUM_CACHE, or atrium in the user's cache; "
+                  "ATRIUM_CACHE=off: none)")
+      ->type_name("DIR");
   verb.add_flag("--no-cache", choice.off, "compute everything, keep nothing");
-  verb.add_option("--cache-size", choice.size, "what is not used for longest is removed above this size")
+  add_size(verb, "--cache-size", choice.size, "what is not used for longest is removed above this size")
       ->capture_default_str();
+}
+
+CLI::Option* add_size(CLI::App& verb, const std::string& name, std::string& size, const std::string& text) {
+  const auto problem = [](const std::string& given) -> std::string {
+    try {
+      read_size(given);
+      return {};
+    } catch (const Error& error) {
+      return std::string(error.what()) + " (" + error.help() + ")";
+    }
+  };
+  return verb.add_option(name, size, text)->type_name("SIZE")->check(CLI::Validator(problem, ""));
 }
 
 std::unique_ptr<Cache> open_cache(const CacheChoice& choice) {
@@ -92,10 +117,14 @@ std::unique_ptr<Cache> open_cache(const CacheChoice& choice) {
   options.most_bytes = read_size(choice.size);
   try {
     return std::make_unique<Cache>(options);
+  } catch (const NoCacheFolder& error) {
+    const std::string problem = fmt::format("{} ({})", error.what(), error.help());
+    if (!choice.folder.empty()) throw CLI::ValidationError("--cache", problem);
+    fmt::print(stderr, "warning: without a cache: {}\n", problem);
   } catch (const Error& error) {
     fmt::print(stderr, "warning: without a cache: {}\n", error.what());
-    return nullptr;
   }
+  return nullptr;
 }
 
 void add_cache(CLI::App& app, int& exit_code) {
@@ -104,15 +133,14 @@ void add_cache(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<Options>();
   const auto add = [&](const char* name, const char* text, int (*work)(const Options&)) {
     auto* sub = verb->add_subcommand(name, text);
-    sub->add_option("--cache", options->cache.folder, "its folder (default: as for `atrium run`)");
+    sub->add_option("--cache", options->cache.folder, "its folder (default: as for `atrium run`)")->type_name("DIR");
     sub->add_flag("--json", options->json, "results as JSON on stdout");
     sub->callback([options, &exit_code, work] { exit_code = work(*options); });
     return sub;
   };
   add("stat", "Shows how much there is of what.", stat);
-  add("gc", "Removes what has not been used for longest.", gc)
-      ->add_option("--cache-size", options->cache.size, "leaves at most so much")
-      ->capture_default_str();
+  auto* garbage = add("gc", "Removes what has not been used for longest.", gc);
+  add_size(*garbage, "--cache-size", options->cache.size, "leaves at most so much")->capture_default_str();
   add("verify", "Checks every file; removes those that are damaged.", verify);
 }
 

@@ -74,7 +74,9 @@ void add_check(CLI::App& app, int& exit_code) {
   auto* verb =
       app.add_subcommand("check", "Checks a pipeline file: every mistake with its place, before anything runs.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("FILE", options->file, "the pipeline file, or a picture that a run has made (PNG)")->required();
+  verb->add_option("FILE", options->file, "the pipeline file, or a picture that a run has made (PNG)")
+      ->required()
+      ->type_name("");
   add_settings(*verb, options->settings);
   verb->add_flag("--json", options->json, "findings as JSON on stdout");
   verb->callback([options, &exit_code] {
@@ -93,6 +95,7 @@ void add_check(CLI::App& app, int& exit_code) {
 void add_settings(CLI::App& verb, std::vector<std::string>& settings) {
   verb.add_option("-s,--set", settings,
                   "NODE.PARAMETER=VALUE, NODE.type=TYPE, NODE.pipeline=FILE or VARIABLE=VALUE; may be repeated")
+      ->type_name("ADDRESS=VALUE")
       ->expected(1)
       ->take_all()
       ->allow_extra_args(false);

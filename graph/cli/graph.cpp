@@ -103,8 +103,12 @@ void add_graph(CLI::App& app, int& exit_code) {
   };
   auto* verb = app.add_subcommand("graph", "Draws a pipeline: DOT for Graphviz, or Mermaid for Markdown.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("FILE", options->file, "the pipeline file, or a picture that a run has made (PNG)")->required();
-  verb->add_option("--format", options->format, "dot or mermaid")->check(CLI::IsMember({"dot", "mermaid"}));
+  verb->add_option("FILE", options->file, "the pipeline file, or a picture that a run has made (PNG)")
+      ->required()
+      ->type_name("");
+  verb->add_option("--format", options->format, "dot or mermaid")
+      ->type_name("FORMAT")
+      ->check(CLI::IsMember({"dot", "mermaid"}));
   add_settings(*verb, options->settings);
   verb->callback([options, &exit_code] {
     Registry registry;

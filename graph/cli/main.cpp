@@ -4,11 +4,19 @@
 #include "graph/cli/verbs.hpp"
 #include "graph/pipeline/registry.hpp"
 
+namespace atrium::cli {
+
+void print_error(const std::string& message, const std::string& help) {
+  std::fprintf(stderr, "atrium: error: %s\n", message.c_str());
+  if (!help.empty()) std::fprintf(stderr, "  help: %s\n", help.c_str());
+}
+
+}  // namespace atrium::cli
+
 namespace {
 
 int report(const char* message, const std::string& help, int code) {
-  std::fprintf(stderr, "atrium: error: %s\n", message);
-  if (!help.empty()) std::fprintf(stderr, "  help: %s\n", help.c_str());
+  atrium::cli::print_error(message, help);
   return code;
 }
 
@@ -34,8 +42,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& success) {  // --help
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "atrium: error: %s\n  help: atrium --help\n", error.what());
-    return cli::usage;
+    return report(error.what(), "atrium --help", cli::usage);
   } catch (const atrium::PluginError& error) {
     return report(error.what(), error.help(), cli::plugin);
   } catch (const atrium::Error& error) {

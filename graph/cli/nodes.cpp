@@ -153,7 +153,7 @@ void add_nodes(CLI::App& app, int& /*exit_code*/) {
   };
   auto* verb = app.add_subcommand("nodes", "Lists the node types, or shows one: ports, parameters, units, limits.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("TYPE", options->word, "a node type (plane.ransac) or a module (plane)");
+  verb->add_option("TYPE", options->word, "a node type (plane.ransac) or a module (plane)")->type_name("");
   auto* json = verb->add_flag("--json", options->json, "machine-readable");
   verb->add_flag("--markdown", options->markdown, "as in share/doc/nodes")->excludes(json);
   verb->callback([options] {

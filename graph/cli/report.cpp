@@ -53,13 +53,14 @@ void add_report(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand(
       "report", "Writes one HTML file about a sweep or a run: table, plots, pictures, models in 3D, times.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("FOLDER", options->folder, "the folder of a sweep or of a run")->required();
-  verb->add_option("-o,--output", options->file, "the file to write (default: FOLDER/report.html)");
+  verb->add_option("FOLDER", options->folder, "the folder of a sweep or of a run")->required()->type_name("");
+  verb->add_option("-o,--output", options->file, "the file to write (default: FOLDER/report.html)")->type_name("FILE");
   verb->add_option(
-      "--model", options->models,
-      "a model that the variants have written, by its path in their folders; may be repeated (default: the "
-      "smallest .glb, or .ply with faces, that most variants have)");
-  verb->add_option("--models", options->most_models, "the models of so many variants at most");
+          "--model", options->models,
+          "a model that the variants have written, by its path in their folders; may be repeated (default: the "
+          "smallest .glb, or .ply with faces, that most variants have)")
+      ->type_name("FILE");
+  verb->add_option("--most-models", options->most_models, "the models of so many variants at most");
   verb->add_option("--max-size", options->max_megabytes, "megabytes of pictures and models at most")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1e6));

@@ -73,8 +73,7 @@ int run(const Options& options) {
     ConsoleProgress progress(console_options(stderr, options.quiet));
     result = run_pipeline(loaded.pipeline, run_options, progress);
   } catch (const FolderError& error) {
-    fmt::print(stderr, "atrium: error: {}\n", error.what());
-    if (!error.help().empty()) fmt::print(stderr, "  help: {}\n", error.help());
+    print_error(error.what(), error.help());
     return usage;
   }
   for (const auto& problem : result.cache_problems)
@@ -94,9 +93,11 @@ void add_run(CLI::App& app, int& exit_code) {
   auto* verb =
       app.add_subcommand("run", "Runs a pipeline: results on stdout, files and a record of the run in a folder.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("FILE", options->file, "the pipeline file, or a picture that a run has made (PNG)")->required();
+  verb->add_option("FILE", options->file, "the pipeline file, or a picture that a run has made (PNG)")
+      ->required()
+      ->type_name("");
   add_settings(*verb, options->settings);
-  verb->add_option("--out", options->out, "the run's folder (default: runs/NAME-TIME)");
+  verb->add_option("--out", options->out, "the run's folder (default: runs/NAME-TIME)")->type_name("DIR");
   verb->add_option("-j,--threads", options->threads, "threads; 1: one node after the other (default: one per core)")
       ->check(CLI::Range(1, 1024));
   verb->add_flag("-q,--quiet", options->quiet, "no progress and no warnings on stderr, errors only");

@@ -230,10 +230,10 @@ int run(const Options& options) {
 }
 
 void add_common(CLI::App& verb, Options& options) {
-  verb.add_option("FILE", options.file, "the sweep file")->required();
+  verb.add_option("FILE", options.file, "the sweep file")->required()->type_name("");
   add_settings(verb, options.settings);
-  verb.add_option("--out", options.out,
-                  "the sweep's folder (default: runs/NAME); what is done in it is not done again");
+  verb.add_option("--out", options.out, "the sweep's folder (default: runs/NAME); what is done in it is not done again")
+      ->type_name("DIR");
   verb.add_flag("--json", options.json, "results as JSON on stdout");
 }
 
@@ -258,9 +258,9 @@ void add_sweep(CLI::App& app, int& exit_code) {
   ran->add_flag("-q,--quiet", options->quiet, "no progress and no warnings on stderr, errors only");
   ran->add_flag("--no-hashes", options->no_hashes, "leave the content hashes of outputs out of manifest.json");
   add_cache_options(*ran, options->cache);
-  ran->add_option("--mem", options->memory,
-                  "a node waits while what runs already may need so much memory with it, as far as it is known from "
-                  "earlier runs: 8 GB");
+  add_size(*ran, "--mem", options->memory,
+           "a node waits while what runs already may need so much memory with it, as far as it is known from earlier "
+           "runs: 8 GB");
   ran->add_flag(
       "--isolate", options->isolate,
       "each variant in a process of its own: one that crashes costs that variant only, and --mem is a limit that is "

@@ -35,7 +35,10 @@ struct CacheChoice {
   bool off = false;
 };
 void add_cache_options(CLI::App& verb, CacheChoice& choice);
-/// Null if there is to be none, or if it cannot be used: that is said on stderr.
+/// An option that takes a size ("20 GB"); what is none ends the program as any wrong use does.
+CLI::Option* add_size(CLI::App& verb, const std::string& name, std::string& size, const std::string& text);
+/// Null if there is to be none, or if it cannot be used: that is said on stderr. A folder that --cache names and that
+/// holds something else is an error of use (CLI::ParseError).
 std::unique_ptr<Cache> open_cache(const CacheChoice& choice);
 
 /// What the processes of a sweep are told of its cache (null: none) and of hashes.
@@ -45,6 +48,8 @@ std::string own_program();
 
 /// "1 node", "2 nodes".
 std::string counted(std::size_t count, std::string_view what);
+/// "atrium: error: …" on stderr, and below it what would help.
+void print_error(const std::string& message, const std::string& help);
 /// Warnings and errors, on stderr.
 void print_findings(const LoadResult& result);
 

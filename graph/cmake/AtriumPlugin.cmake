@@ -1,16 +1,17 @@
 # atrium_add_plugin(<module> NODES <name>... [NAMESPACE <ns>] [SOURCES <file>...] [LIBRARIES <target>...]
-#                   [LAZY] [NO_INSTALL])
+#                   [DATA <folder>...] [LAZY] [NO_INSTALL])
 #
 # Builds libatrium_<module>.so from the node types <name>: each is a pair of files, <name>.hpp and <name>.cpp, whose header
 # holds the struct <Name> (CamelCase of the file's name) in the namespace <ns> (default: atrium::<module>), with
 # type = "<module>.<name>". Installed to <libdir>/atrium, where the program finds it; during development ATRIUM_PLUGIN_PATH
 # can name the build's folder lib/atrium. LAZY is for modules that link large libraries (PCL, VTK): the tables stand in a
-# light library, the functions in libatrium_<module>-run.so, which is loaded when a node of the module first runs. Adding a
-# node type is adding the pair of files and its name to NODES.
+# light library, the functions in libatrium_<module>-run.so, which is loaded when a node of the module first runs. DATA names
+# folders below share/ whose files the nodes read (found with data_folder(), graph/api/plugin_data.hpp): when one of them changes,
+# the module's nodes are run again. Adding a node type is adding the pair of files and its name to NODES.
 include(GNUInstallDirs)
 set(ATRIUM_PLUGIN_TEMPLATE_DIR ${CMAKE_CURRENT_LIST_DIR})
 function(atrium_add_plugin module)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "LAZY;NO_INSTALL" "NAMESPACE" "NODES;SOURCES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LAZY;NO_INSTALL" "NAMESPACE" "NODES;SOURCES;LIBRARIES;DATA")
   if(NOT arg_NAMESPACE)
     set(arg_NAMESPACE atrium::${module})
   endif()
@@ -50,6 +51,14 @@ function(atrium_add_plugin module)
     set_target_properties(atrium_${module}_tables PROPERTIES OUTPUT_NAME atrium_${module}
                           LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/atrium INSTALL_RPATH "$ORIGIN;$ORIGIN/..")
     list(APPEND targets atrium_${module}_tables)
+  endif()
+  if(arg_DATA)
+    list(JOIN arg_DATA "\n" folders)
+    set(data_file ${CMAKE_BINARY_DIR}/lib/atrium/libatrium_${module}.data)
+    file(WRITE ${data_file} "${folders}\n")
+    if(NOT arg_NO_INSTALL)
+      install(FILES ${data_file} DESTINATION ${CMAKE_INSTALL_LIBDIR}/atrium)
+    endif()
   endif()
   if(NOT arg_NO_INSTALL)
     install(TARGETS ${targets} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/atrium)

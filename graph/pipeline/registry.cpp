@@ -11,6 +11,7 @@
 #include <set>
 
 #include "graph/api/plugin.hpp"
+#include "graph/api/plugin_data.hpp"
 
 namespace atrium {
 namespace {
@@ -182,8 +183,10 @@ std::string Registry::build() const {
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
       if (const std::string name = entry.path().filename().string();
-          name.starts_with("libatrium") && name.find(suffix) != std::string::npos)
+          name.starts_with("libatrium") && name.find(suffix) != std::string::npos) {
         files.insert(std::filesystem::canonical(entry.path(), ignored));
+        for (auto& file : plugin_data_files(entry.path())) files.insert(std::move(file));
+      }
   }
   ContentHash hash;
   const auto add = [&](std::string_view text) { hash.bytes(text.data(), text.size()); };

@@ -29,7 +29,8 @@ class Registry {
   void add(NodeType type);
   /// Names of all modules whose plugin files exist, loaded or not.
   std::vector<std::string> modules() const;
-  /// A hash over the contents of Atrium's own libraries and of all plugins: another build, another value.
+  /// A hash over the contents of Atrium's own libraries, of all plugins and of the data files that they read: another
+  /// build, another value.
   std::string build() const;
 
  private:

@@ -24,14 +24,15 @@ bool Admission::admit(std::size_t n, const PipelineNode& node) {
   return true;
 }
 
-void Admission::done(std::size_t n, const std::string& type, std::uint64_t growth) {
+void Admission::done(std::size_t n, const std::string& type, std::optional<std::uint64_t> growth) {
   if (limit_ == 0) return;
   const auto found = running_.find(n);
   if (found == running_.end()) return;
   reserved_ -= found->second;
   running_.erase(found);
+  if (!growth) return;
   std::uint64_t& known = learned_[type];
-  known = std::max(known, growth);
+  known = std::max(known, *growth);
 }
 
 std::vector<std::size_t> Admission::later() { return std::exchange(refused_, {}); }

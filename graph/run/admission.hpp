@@ -19,8 +19,8 @@ class Admission {
       : limit_(limit), estimate_(estimate) {}
   /// False: `later` gives it back when another node is done.
   bool admit(std::size_t n, const PipelineNode& node);
-  /// The node is done; `growth`: what it needed.
-  void done(std::size_t n, const std::string& type, std::uint64_t growth);
+  /// The node is done; `growth`: what it needed, if that is known.
+  void done(std::size_t n, const std::string& type, std::optional<std::uint64_t> growth);
   /// The nodes that were refused; they may try again.
   std::vector<std::size_t> later();
 

@@ -51,11 +51,14 @@ void Scheduler::look(std::size_t n) {
     }
   }
   std::size_t tasks = 0;
+  std::optional<std::size_t> lost;
   {
     const std::lock_guard lock(mutex_);
-    tasks = demand(n);
+    lost = lost_producer(n);
+    if (!lost) tasks = demand(n);
   }
   spawn_(tasks);
+  if (lost) drop_waiters(*lost);
 }
 
 /// The node's key, unless it has none: then why not.
@@ -136,6 +139,19 @@ bool Scheduler::replay(std::size_t n, const CacheRecord& found) {
   return true;
 }
 
+/// A node whose value the node needs and that cannot be made again, if there is one: then the node waits for it, to be
+/// dropped with its other waiters.
+std::optional<std::size_t> Scheduler::lost_producer(std::size_t n) {
+  for (const auto& port : pipeline_.nodes[n].inputs)
+    for (const Edge& edge : port) {
+      State& from = states_[edge.node];
+      if (from.values[edge.output].data || result_.nodes[edge.node].status != NodeStatus::failed) continue;
+      from.waiters.push_back(n);
+      return edge.node;
+    }
+  return std::nullopt;
+}
+
 /// Queues what the node needs before it can run, or the node itself.
 std::size_t Scheduler::demand(std::size_t n) {
   std::size_t tasks = 0;
@@ -161,6 +177,7 @@ std::size_t Scheduler::demand(std::size_t n) {
 /// Loads the values that are wanted of a node; if one cannot be had, the node is run again.
 void Scheduler::fetch(std::size_t p) {
   std::size_t tasks = 0;
+  std::optional<std::size_t> lost;
   while (true) {
     std::size_t output = 0;
     {
@@ -173,7 +190,9 @@ void Scheduler::fetch(std::size_t p) {
       }
     }
     const PortInfo& port = pipeline_.nodes[p].type->outputs[output];
+    memory_watch_.disturb();  // nodes that run meanwhile do not need what is loaded here
     const auto data = port.flat == nullptr ? nullptr : cache_->load(*port.flat, states_[p].hashes[output]);
+    memory_watch_.disturb();
     const std::lock_guard lock(mutex_);
     if (data) {
       states_[p].values[output] = port.wrap(data);
@@ -182,24 +201,31 @@ void Scheduler::fetch(std::size_t p) {
     result_.nodes[p].cache.again = true;
     for (const auto& edges : pipeline_.nodes[p].inputs)
       for (const Edge& edge : edges) ++plan_.readers[edge.node][edge.output];
-    tasks = demand(p);
+    lost = lost_producer(p);
+    if (!lost) tasks = demand(p);
     break;
   }
   spawn_(tasks);
+  if (lost) drop_waiters(*lost);
 }
 
 /// Nothing is lacking of a node any more.
 std::size_t Scheduler::wake(std::size_t p) {
-  State& state = states_[p];
-  state.under_way = false;
-  std::fill(state.wanted.begin(), state.wanted.end(), 0);
   std::size_t tasks = 0;
-  for (const std::size_t waiter : std::exchange(state.waiters, {}))
+  for (const std::size_t waiter : take_waiters(p))
     if (--states_[waiter].lacking == 0) {
       push(waiter, Step::run);
       ++tasks;
     }
   return tasks;
+}
+
+/// Nobody waits for the node's values any more.
+std::vector<std::size_t> Scheduler::take_waiters(std::size_t p) {
+  State& state = states_[p];
+  state.under_way = false;
+  std::fill(state.wanted.begin(), state.wanted.end(), 0);
+  return std::exchange(state.waiters, {});
 }
 
 /// After a node was run that had been done by its record alone.
@@ -227,18 +253,18 @@ void Scheduler::drop_waiters(std::size_t n) {
     while (!stack.empty()) {
       const std::size_t by = stack.back();
       stack.pop_back();
-      for (const std::size_t waiter : std::exchange(states_[by].waiters, {})) {
-        NodeRecord& record = result_.nodes[waiter];
-        if (!states_[waiter].settled) {
+      for (const std::size_t waiter : take_waiters(by)) {
+        State& state = states_[waiter];
+        if (!state.settled) {
           block(waiter, by);
-          states_[waiter].blocked = true;
+          state.blocked = true;
           pass_over(waiter, garbage);
           passed.push_back(waiter);
-        } else if (stack.push_back(waiter);
-                   result_.nodes[by].status == NodeStatus::failed) {  // it was to run again, too
-          record.status = NodeStatus::failed;
-          record.message = "its value is not kept and cannot be made again: '" + result_.nodes[by].node + "' failed";
-        }
+        } else if (!state.blocked) {  // it was to run again, too
+          lose(waiter, by);
+          release_inputs(waiter, garbage);
+          stack.push_back(waiter);
+        }  // else another node that it waited for was lost before
       }
     }
     for (std::size_t i = 0, direct = passed.size(); i < direct; ++i)
@@ -246,6 +272,14 @@ void Scheduler::drop_waiters(std::size_t n) {
   }
   spawn_(started);
   for (const std::size_t p : passed) progress_.finished(result_.nodes[p]);
+}
+
+/// The value of a node that was to run again cannot be had, because that of `by` cannot.
+void Scheduler::lose(std::size_t n, std::size_t by) {
+  NodeRecord& record = result_.nodes[n];
+  if (result_.nodes[by].status != NodeStatus::failed || record.status == NodeStatus::failed) return;
+  record.status = NodeStatus::failed;
+  record.message = "its value is not kept and cannot be made again: '" + result_.nodes[by].node + "' failed";
 }
 
 /// The run is ending: a step that was queued is not made.
@@ -284,7 +318,7 @@ double Scheduler::cost_of_inputs(std::size_t n) {
   return cost;
 }
 
-void Scheduler::keep(std::size_t n, const std::vector<Value>& outputs, std::uint64_t growth) {
+void Scheduler::keep(std::size_t n, const std::vector<Value>& outputs, std::optional<std::uint64_t> growth) {
   const PipelineNode& node = pipeline_.nodes[n];
   const NodeRecord& done = result_.nodes[n];
   const State& state = states_[n];
@@ -302,7 +336,7 @@ void Scheduler::keep(std::size_t n, const std::vector<Value>& outputs, std::uint
   try {
     // A file has changed since its hash was taken: which of the two was read?
     if (fingerprints_of(node) != state.files || !cache_->is_build_unchanged(*node.type)) return;
-  } catch (const Error&) {
+  } catch (const std::exception&) {
     return;
   }
   CacheRecord record{done.cache.key, state.key.fields, address_of(node),

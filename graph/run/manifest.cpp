@@ -35,20 +35,6 @@ Json outputs_of(const NodeRecord& node) {
   return outputs;
 }
 
-Json cache_json(const CacheUse& use) {
-  const bool hit = use.result == CacheUse::Result::hit;
-  Json json{{"result", hit ? "hit" : "miss"}};
-  if (!use.key.empty()) json["key"] = use.key;
-  if (!use.why.empty()) json["why"] = use.why;
-  if (!hit) return json;
-  if (use.again) json["why"] = "run again: its value was needed and is not kept";
-  json["made"] = use.made;
-  json["computing_wall_seconds"] = rounded(use.wall);
-  json["computing_cpu_seconds"] = rounded(use.cpu);
-  json["computing_peak_memory"] = use.peak_memory;
-  return json;
-}
-
 Json node_json(const NodeRecord& node, const NodeType& type) {
   Json json{{"node", node.node}, {"type", node.type}, {"version", type.version}, {"status", name_of(node.status)}};
   if (node.status == NodeStatus::failed) {
@@ -95,6 +81,20 @@ Json pipeline_outputs(const Pipeline& pipeline, const RunResult& result) {
 std::string text(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 }  // namespace
+
+Json cache_json(const CacheUse& use) {
+  const bool hit = use.result == CacheUse::Result::hit;
+  Json json{{"result", hit ? "hit" : "miss"}};
+  if (!use.key.empty()) json["key"] = use.key;
+  if (!use.why.empty()) json["why"] = use.why;
+  if (!hit) return json;
+  if (use.again) json["why"] = "run again: its value was needed and is not kept";
+  json["made"] = use.made;
+  json["computing_wall_seconds"] = rounded(use.wall);
+  json["computing_cpu_seconds"] = rounded(use.cpu);
+  json["computing_peak_memory"] = use.peak_memory;
+  return json;
+}
 
 std::string manifest_json(const Pipeline& pipeline, const RunResult& result, const std::string& started) {
   const std::string_view status = !result.failures.empty() ? "failed" : result.cancelled ? "cancelled" : "ok";

@@ -1,4 +1,5 @@
 #pragma once
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "graph/run/runner.hpp"
@@ -11,5 +12,8 @@ std::string manifest_json(const Pipeline& pipeline, const RunResult& result, con
 
 /// The manifest of a run that is under way ("status": "running"): what a killed run leaves.
 std::string unfinished_manifest(const Pipeline& pipeline, const std::string& started);
+
+/// What the cache had of a node: {"result": "hit" or "miss", "key": …, "why": …, …}.
+nlohmann::ordered_json cache_json(const CacheUse& use);
 
 }  // namespace atrium

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "graph/cache/node_key.hpp"
 #include "graph/run/manifest.hpp"
 #include "graph/run/node_host.hpp"
 #include "graph/run/trace.hpp"
@@ -31,15 +32,8 @@ nlohmann::json read_manifest(const fs::path& folder) {
 
 std::set<fs::path> files_read(const Pipeline& pipeline) {
   std::set<fs::path> files;
-  const auto add = [&](const std::string& path) { files.insert(fs::weakly_canonical(path)); };
-  for (const auto& node : pipeline.nodes) {
-    for (std::size_t i = 0; i < node.params.size(); ++i) {
-      const ParamKind kind = node.type->params[i].kind;
-      if (kind == ParamKind::input_path) add(std::get<std::string>(node.params[i]));
-      if (kind != ParamKind::input_paths) continue;
-      for (const auto& path : std::get<std::vector<std::string>>(node.params[i])) add(path);
-    }
-  }
+  for (const auto& node : pipeline.nodes)
+    for (const auto& file : input_files(node)) files.insert(fs::weakly_canonical(file));
   return files;
 }
 

@@ -112,7 +112,7 @@ void Scheduler::execute(std::size_t n) {
   }
   if (!again) progress_.started(record.node);
   std::vector<Value> outputs;
-  std::uint64_t growth = 0;
+  std::optional<std::uint64_t> growth;
   bool ok = call_watched(n, std::move(inputs), outputs, growth);
   if (ok) {
     record.facts.clear();
@@ -140,22 +140,27 @@ void Scheduler::execute(std::size_t n) {
 }
 
 /// call(), with what happens to the process's memory.
-bool Scheduler::call_watched(std::size_t n, Inputs inputs, std::vector<Value>& outputs, std::uint64_t& growth) {
+bool Scheduler::call_watched(std::size_t n, Inputs inputs, std::vector<Value>& outputs,
+                             std::optional<std::uint64_t>& growth) {
   NodeRecord& record = result_.nodes[n];
-  if (result_.threads == 1) reset_peak_memory();
   const bool watched = cache_ != nullptr || options_.memory > 0;
-  const std::uint64_t before = watched ? resident_memory() : 0;
+  if (result_.threads == 1 && !watched) reset_peak_memory();
+  const std::size_t watch = watched ? memory_watch_.begin() : 0;
   take_helper_memory();
   const bool ok = call(n, inputs, outputs);
   const std::uint64_t helper_memory = take_helper_memory();
   inputs.clear();  // the last reference goes in settle
-  if (record.wall >= peak_reading_interval || result_.threads == 1) peak_memory_ = peak_memory();
+  if (watched) growth = memory_watch_.end(watch);
+  if (growth) *growth += helper_memory;
+  if (result_.threads == 1)
+    peak_memory_ = peak_memory();
+  else if (record.wall >= peak_reading_interval)
+    peak_memory_ = std::max(memory_watch_.peak_before(), peak_memory());
   record.peak_memory = peak_memory_ + helper_memory;
-  growth = record.peak_memory > before ? record.peak_memory - before : 0;
   return ok;
 }
 
-void Scheduler::give_memory_back(std::size_t n, std::uint64_t growth) {
+void Scheduler::give_memory_back(std::size_t n, std::optional<std::uint64_t> growth) {
   std::size_t tasks = 0;
   {
     const std::lock_guard lock(mutex_);

@@ -2,12 +2,14 @@
 #include <atomic>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <queue>
 #include <vector>
 
 #include "graph/cache/cache.hpp"
 #include "graph/pipeline/png_stamp.hpp"
 #include "graph/run/admission.hpp"
+#include "graph/run/memory_watch.hpp"
 #include "graph/run/plan.hpp"
 #include "graph/run/runner.hpp"
 
@@ -58,8 +60,8 @@ class Scheduler {
 
   void step();
   void execute(std::size_t n);
-  bool call_watched(std::size_t n, Inputs inputs, std::vector<Value>& outputs, std::uint64_t& growth);
-  void give_memory_back(std::size_t n, std::uint64_t growth);
+  bool call_watched(std::size_t n, Inputs inputs, std::vector<Value>& outputs, std::optional<std::uint64_t>& growth);
+  void give_memory_back(std::size_t n, std::optional<std::uint64_t> growth);
   bool call(std::size_t n, const Inputs& inputs, std::vector<Value>& outputs);
   void fail(std::size_t n, std::string message, std::string help);
   void describe(std::size_t n, const std::vector<Value>& outputs);
@@ -76,13 +78,16 @@ class Scheduler {
   void abandon(std::size_t n);
   void drop_waiters(std::size_t n);
   bool hashes_are_right(std::size_t n);
-  void keep(std::size_t n, const std::vector<Value>& outputs, std::uint64_t growth);
+  void keep(std::size_t n, const std::vector<Value>& outputs, std::optional<std::uint64_t> growth);
   double cost_of_inputs(std::size_t n);
   // With mutex_ held:
   void push(std::size_t n, Step step);
   std::size_t retry_refused();
+  std::optional<std::size_t> lost_producer(std::size_t n);
   std::size_t demand(std::size_t n);
   std::size_t wake(std::size_t p);
+  std::vector<std::size_t> take_waiters(std::size_t p);
+  void lose(std::size_t n, std::size_t by);
   Inputs inputs_of(std::size_t n) const;
   void keep_outputs(std::size_t n, const std::vector<Value>& outputs);
   void release_inputs(std::size_t n, std::vector<Value>& garbage);
@@ -104,6 +109,7 @@ class Scheduler {
   std::priority_queue<Ready> ready_;
   std::size_t stamp_ = 0;
   Admission admission_;
+  MemoryWatch memory_watch_;
   std::vector<State> states_;
   RunResult result_;
 };

@@ -57,7 +57,7 @@ SweepForecast forecast(const SweepPlan& plan, const std::vector<bool>& done, Cac
     result.unknown += cost ? 0 : 1;
     seconds_of[n] = cost ? cost->wall : 0;
     result.seconds += seconds_of[n];
-    if (cost) result.memory = std::max(result.memory, cost->memory);
+    if (cost) result.memory = std::max(result.memory, cost->memory.value_or(0));
   }
   for (std::size_t v = 0; v < plan.variants.size(); ++v) {
     auto& variant = result.variants.emplace_back();

@@ -89,8 +89,8 @@ std::optional<std::uint64_t> IsolatedRun::memory_of(const std::vector<std::size_
   for (const std::size_t n : nodes) {
     if (forecast_.nodes[n] == SweepForecast::Node::known) continue;
     const auto cost = costs_.of(plan_.merged.nodes[n].type->type, address_in_variant(plan_.merged.nodes[n]));
-    if (!cost) return learned_ > 0 ? std::optional(learned_) : std::nullopt;
-    most = std::max(most, cost->memory);
+    if (!cost || !cost->memory) return learned_ > 0 ? std::optional(learned_) : std::nullopt;
+    most = std::max(most, *cost->memory);
   }
   return most + memory_of_a_process;
 }
@@ -202,7 +202,9 @@ void IsolatedRun::settle(std::size_t v, const PoolEnd& end) {
       result.artefacts.push_back(
           {fs::path(file.path).lexically_relative(fs::path("variants") / variant.id).generic_string(), file.bytes});
   write_file(folder / "result.json",
-             result_json(folder, options_.name(variant), plan_, variant, result, options_.build), false);
+             result_json(folder, options_.name(variant), plan_, variant, result, options_.build,
+                         state_of_inputs(plan_, variant)),
+             false);
   results_[v] = std::move(result);
 }
 

@@ -11,7 +11,8 @@ namespace fs = std::filesystem;
 void add_node(const PipelineNode& node, const NodeRecord& record, VariantResult& result) {
   const std::string path = address_in_variant(node);
   result.nodes.push_back({path, record.type, record.status, record.computing_wall(), record.computing_cpu(),
-                          record.computing_memory(), record.outputs, record.is_hit() && !record.cache.again});
+                          record.computing_memory(), record.outputs, record.is_hit() && !record.cache.again,
+                          record.cache});
   if (record.status == NodeStatus::failed && result.message.empty()) result.message = path + ": " + record.message;
   if (record.status == NodeStatus::failed) result.status = VariantStatus::failed;
   if (record.status == NodeStatus::skipped && result.status == VariantStatus::ok) {
@@ -70,12 +71,14 @@ Recorder::Recorder(const SweepPlan& plan, const std::vector<bool>& wanted, Optio
       progress_(progress),
       variants_of_(plan.merged.nodes.size()),
       left_(plan.variants.size(), 0),
+      inputs_(plan.variants.size()),
       records_(plan.merged.nodes.size()),
       variants_(plan.variants.size()) {
   for (std::size_t n = 0; n < plan.merged.nodes.size(); ++n) index_.emplace(plan.merged.nodes[n].path, n);
   for (std::size_t v = 0; v < plan.variants.size(); ++v) {
     if (!wanted[v]) continue;
     left_[v] = plan.variants[v].nodes.size();
+    inputs_[v] = state_of_inputs(plan, plan.variants[v]);
     for (const std::size_t n : plan.variants[v].nodes) variants_of_[n].push_back(v);
   }
 }
@@ -115,9 +118,11 @@ void Recorder::record_variant(std::size_t v) {
     for (const auto& artefact : records_[n].artefacts) add_artefact(variant, n, artefact, result);
   if (result.status == VariantStatus::failed && ++failures_ >= options_.max_failures) stop_ = true;
   if (result.status == VariantStatus::cancelled) return;  // it is done anew next time
+  if (state_of_inputs(plan_, variant) != inputs_[v])
+    progress_.message(variant.id, "a file that it reads was changed meanwhile: it is run again next time", true);
   const fs::path folder = variant_folder(options_.out, variant);
   write_file(folder / "result.json",
-             result_json(folder, options_.name(variant), plan_, variant, result, options_.build),
+             result_json(folder, options_.name(variant), plan_, variant, result, options_.build, inputs_[v]),
              false);  // if it is cut off, the variant is not done
 }
 

@@ -62,6 +62,7 @@ class Recorder final : public ProgressSink {
   std::unordered_map<std::string, std::size_t> index_;
   std::vector<std::vector<std::size_t>> variants_of_;
   std::vector<std::size_t> left_;
+  std::vector<std::string> inputs_;  ///< state_of_inputs() of the variants that are run, when they were begun
   std::vector<NodeRecord> records_;
   std::vector<VariantResult> variants_;
   std::map<std::string, PngStamp> stamps_;  ///< by variant

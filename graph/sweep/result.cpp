@@ -1,12 +1,11 @@
 #include "graph/sweep/result.hpp"
 
-#include <fmt/format.h>
-#include <sys/stat.h>
-
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "graph/cache/blob.hpp"
+#include "graph/cache/node_key.hpp"
+#include "graph/run/manifest.hpp"
 #include "graph/run/record_json.hpp"
 
 namespace atrium {
@@ -15,19 +14,23 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// What tells whether a file was changed: size and time, in nanoseconds.
-Json fingerprint(const std::string& path) {
-  struct stat info {};
-  if (::stat(path.c_str(), &info) != 0) return {{"path", path}, {"missing", true}};
-  return {{"path", path},
-          {"bytes", static_cast<std::uint64_t>(info.st_size)},
-          {"changed", fmt::format("{}.{:09}", info.st_mtim.tv_sec, info.st_mtim.tv_nsec)}};
+/// A hash of what tells whether a file, or one in a folder, was changed.
+Json state_of(const fs::path& path) {
+  try {
+    const std::string fingerprint = FileHashes::fingerprint(path);
+    ContentHash hash;
+    hash.bytes(fingerprint.data(), fingerprint.size());
+    return {{"path", path.string()}, {"state", hash.hex()}};
+  } catch (const Error&) {
+    return {{"path", path.string()}, {"missing", true}};
+  }
 }
 
 Json node_json(const VariantResult::Node& node) {
   Json json{{"node", node.path},         {"type", node.type},       {"status", name_of(node.status)},
             {"wall_seconds", node.wall}, {"cpu_seconds", node.cpu}, {"peak_memory", node.peak_memory}};
   if (node.known) json["known"] = true;
+  if (node.cache.result != CacheUse::Result::off) json["cache"] = cache_json(node.cache);
   json["outputs"] = Json::array();
   for (const auto& output : node.outputs) {
     Json described{{"port", output.port}, {"type", output.type}, {"bytes", output.bytes}};
@@ -39,15 +42,8 @@ Json node_json(const VariantResult::Node& node) {
 
 Json inputs_of(const SweepPlan& plan, const SweepVariant& variant) {
   Json inputs = Json::array();
-  for (const std::size_t n : variant.nodes) {
-    const PipelineNode& node = plan.merged.nodes[n];
-    for (std::size_t i = 0; i < node.params.size(); ++i) {
-      const ParamKind kind = node.type->params[i].kind;
-      if (kind == ParamKind::input_path) inputs.push_back(fingerprint(std::get<std::string>(node.params[i])));
-      if (kind != ParamKind::input_paths) continue;
-      for (const auto& path : std::get<std::vector<std::string>>(node.params[i])) inputs.push_back(fingerprint(path));
-    }
-  }
+  for (const std::size_t n : variant.nodes)
+    for (const auto& path : input_files(plan.merged.nodes[n])) inputs.push_back(state_of(path));
   return inputs;
 }
 
@@ -100,8 +96,13 @@ std::string_view name_of(VariantStatus status) {
   }
 }
 
+std::string state_of_inputs(const SweepPlan& plan, const SweepVariant& variant) {
+  return inputs_of(plan, variant).dump();
+}
+
 std::string result_json(const fs::path& folder, const VariantName& name, const SweepPlan& plan,
-                        const SweepVariant& variant, const VariantResult& result, const std::string& build) {
+                        const SweepVariant& variant, const VariantResult& result, const std::string& build,
+                        const std::string& inputs) {
   Json json{{"atrium", framework_version()},
             {"build", build},
             {"id", variant.id},
@@ -111,6 +112,7 @@ std::string result_json(const fs::path& folder, const VariantName& name, const S
   json["choices"] = Json::object();
   for (const auto& [axis, choice] : name.choices) json["choices"][axis] = choice;
   json["inputs"] = inputs_of(plan, variant);
+  if (json["inputs"].dump() != inputs) json["inputs"] = "changed while the variant was run";
   json["outputs"] = Json::array();
   for (const auto& output : result.outputs) {
     Json facts = Json::array();

@@ -30,6 +30,7 @@ struct VariantResult {
     std::uint64_t peak_memory = 0;
     std::vector<OutputRecord> outputs;
     bool known = false;  ///< to the cache: times and memory are those of when it was computed
+    CacheUse cache;      ///< of a variant that was run just now
   };
   struct Output {
     std::string name;
@@ -44,15 +45,22 @@ struct VariantResult {
 };
 
 /// The file `result.json` of a variant: what became of it, what it depended on (Atrium's build, the input files), and
-/// the files in its folder with the hashes of their contents.
+/// the files in its folder with the hashes of their contents. `inputs`: state_of_inputs() when the variant was begun;
+/// if it is another by now, nobody knows what the variant was made from, and it is run again next time.
 std::string result_json(const std::filesystem::path& folder, const VariantName& name, const SweepPlan& plan,
-                        const SweepVariant& variant, const VariantResult& result, const std::string& build);
+                        const SweepVariant& variant, const VariantResult& result, const std::string& build,
+                        const std::string& inputs);
+
+/// What tells whether a file that the variant reads was changed (FileHashes::fingerprint), for all of them.
+std::string state_of_inputs(const SweepPlan& plan, const SweepVariant& variant);
 
 /// Reads it back as it stands; nothing if there is none, or it is of another build.
 std::optional<VariantResult> read_result(const std::filesystem::path& folder, const std::string& build);
 
-/// Reads it back; nothing unless the variant was done, by the same build, its input files are the same (size and time
-/// of change) and the files that it wrote are still there as they were.
+/// Reads it back; nothing unless the variant was done, by the same build, its input files are the same (inode, size,
+/// times of change of contents and status; of a folder those of all files in it) and the files that it wrote are still
+/// there as they were. A variant with nodes that run every time (`cached = false`) is done when it is done, like any
+/// other: what such a node reads besides its inputs, parameters and files is not looked at.
 std::optional<VariantResult> reusable_result(const std::filesystem::path& folder, const SweepPlan& plan,
                                              const SweepVariant& variant, const std::string& build);
 

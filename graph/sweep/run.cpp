@@ -39,7 +39,7 @@ RunResult run_together(const Pipeline& pipeline, const SweepOptions& options, Re
   if (options.cache != nullptr)
     run_options.memory_of = [&](const PipelineNode& node) -> std::optional<std::uint64_t> {
       const auto cost = costs.of(node.type->type, address_of(node));
-      return cost ? std::optional(cost->memory) : std::nullopt;
+      return cost ? cost->memory : std::nullopt;
     };
   run_options.stamp = [&](const PipelineNode& node) -> const PngStamp& { return recorder.stamp_of_variant(node); };
   const double cpu = process_cpu_seconds();

@@ -160,7 +160,7 @@ void run_worker(const WorkerTask& task, const WorkerOptions& options, Registry& 
   if (run_options.cache != nullptr)
     run_options.memory_of = [&](const PipelineNode& node) -> std::optional<std::uint64_t> {
       const auto cost = costs.of(node.type->type, address_of(node));
-      return cost ? std::optional(cost->memory) : std::nullopt;
+      return cost ? cost->memory : std::nullopt;
     };
   const double start = wall_seconds();
   events.begin();

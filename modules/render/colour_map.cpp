@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "graph/api/error.hpp"
+#include "graph/api/plugin_data.hpp"
 
 namespace atrium::render {
 namespace {
@@ -21,13 +22,7 @@ fs::path map_folder() {
   Dl_info library{};
   if (::dladdr(reinterpret_cast<const void*>(&load_colour_map), &library) == 0 || library.dli_fname == nullptr)
     throw Error("the library of render.* does not know where it lies");
-  std::error_code ignored;
-  fs::path above = fs::weakly_canonical(library.dli_fname, ignored);
-  while (above.has_relative_path()) {
-    above = above.parent_path();
-    for (const char* below : {"share/atrium/colormaps", "share/colormaps"})
-      if (fs::is_directory(above / below, ignored)) return above / below;
-  }
+  if (fs::path folder = data_folder(library.dli_fname, "colormaps"); !folder.empty()) return folder;
   throw Error(fmt::format("the colour maps (share/colormaps) are not beside {}", library.dli_fname),
               "install Atrium again, as a whole");
 }

@@ -7,8 +7,11 @@
 
 #include <cmath>
 #include <limits>
+#include <thread>
 
+#include "graph/api/plugin_data.hpp"
 #include "graph/cache/blob.hpp"
+#include "graph/cache/costs.hpp"
 #include "graph/cache/nearest.hpp"
 #include "graph/cache/upkeep.hpp"
 #include "tests/graph/test_nodes.hpp"
@@ -131,6 +134,44 @@ TEST(Builds, AreThoseOfThePluginAndOfWhatStandsBesideIt) {
   EXPECT_NE(build(), before);
 }
 
+TEST(Builds, AreAlsoThoseOfTheFilesThatAPluginReads) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "lib/atrium");
+  fs::create_directories(folder / "share/colours");
+  fs::create_directories(folder / "share/others");
+  NodeType type = describe_node<test::Make>();
+  type.library = folder / "lib/atrium/libatrium_trial.so";
+  write_text(type.library, "code");
+  write_text(folder / "lib/atrium/libatrium_trial.data", "colours\nnowhere\n");
+  write_text(folder / "share/colours/red.txt", "255 0 0");
+  write_text(folder / "share/others/red.txt", "255 0 0");
+  const auto nodes = [&] {
+    FileHashes files;
+    return BuildIds(files).of(type);
+  };
+  const auto all = [&] { return Registry({folder / "lib/atrium"}).build(); };
+  const std::pair<std::string, std::string> before{nodes(), all()};
+  FileHashes files;
+  BuildIds builds(files);
+  builds.of(type);
+  write_text(folder / "share/others/red.txt", "254 0 0");
+  EXPECT_EQ(nodes(), before.first);
+  EXPECT_EQ(all(), before.second);
+  EXPECT_TRUE(builds.unchanged(type));
+  write_text(folder / "share/colours/red.txt", "254 0 0");
+  EXPECT_NE(nodes(), before.first);
+  EXPECT_NE(all(), before.second);
+  EXPECT_FALSE(builds.unchanged(type));
+  // As installed, and of the pictures' plugin.
+  fs::create_directories(folder / "share/atrium");
+  fs::rename(folder / "share/colours", folder / "share/atrium/colours");
+  EXPECT_EQ(plugin_data_files(type.library), std::vector<fs::path>{folder / "share/atrium/colours/red.txt"});
+  const fs::path built = fs::path(ATRIUM_PROGRAM).parent_path().parent_path() / "lib/atrium/libatrium_render.so";
+  std::set<std::string> names;
+  for (const auto& file : plugin_data_files(built)) names.insert(file.filename());
+  EXPECT_TRUE(names.contains("viridis.txt"));
+}
+
 CacheRecord some_record() {
   CacheRecord record;
   record.fields = {{"type", "test.find"}, {"version", "1"}, {"distance", "0.5 m"}};
@@ -211,25 +252,58 @@ TEST(CacheSizes, AreReadAndShown) {
   EXPECT_EQ(size_text(999'999), "1 MB");
 }
 
-TEST(CacheUpkeep, RemovesWhatWasNotUsedForLongest) {
+TEST(FileHashing, DoesNotBelieveADamagedLine) {
   const TemporaryFolder folder;
-  const CachePlaces places{folder.path()};
-  fs::create_directories(folder / "files/aa");
-  for (int i = 0; i < 10; ++i) {
-    const fs::path file = folder / ("files/aa/" + std::to_string(i));
-    write_text(file, std::string(4096, 'x'));
-    fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::minutes(100 - i));
+  const TemporaryFolder remembered;
+  const fs::path file = folder / "scan.ply";
+  write_text(file, "one");
+  fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(24));
+  // The system's time of change of the status cannot be set back: wait until the file is old enough to be remembered.
+  while (fs::is_empty(remembered.path())) {
+    FileHashes(remembered.path()).of(file);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
-  touch(folder / "files/aa/0");
-  write_text(folder / "files/aa/.9.1-1.part", "of a process that runs");
-  write_text(folder / "files/aa/.9.999999999-1.part", "of one that is gone");
-  fs::last_write_time(folder / "files/aa/.9.999999999-1.part",
-                      fs::file_time_type::clock::now() - std::chrono::hours(1));
-  const Removed removed = collect_garbage(places, 4 * 4096 + 4096);
-  EXPECT_LE(removed.left, 5U * 4096);
-  std::set<std::string> left;
-  for (const auto& entry : fs::directory_iterator(folder / "files/aa")) left.insert(entry.path().filename());
-  EXPECT_EQ(left, (std::set<std::string>{".9.1-1.part", "0", "7", "8", "9"}));
+  const fs::path line = fs::directory_iterator(remembered.path())->path();
+  const std::string good = test::read_text(line);
+  ASSERT_TRUE(FileHashes::is_whole(good, line.filename()));
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    std::string bad = good;
+    bad[i] = bad[i] == '0' ? '1' : '0';
+    EXPECT_FALSE(FileHashes::is_whole(bad, line.filename())) << bad;
+    write_text(line, bad);
+    ASSERT_EQ(FileHashes(remembered.path()).of(file), hash_of_file(file)) << bad;
+  }
+}
+
+TEST(FileHashing, OfAFolderThatCannotBeReadIsAnError) {
+  const TemporaryFolder folder;
+  fs::create_symlink("nowhere", folder / "to nothing");
+  EXPECT_NO_THROW(FileHashes::fingerprint(folder.path()));
+  fs::create_symlink("circle", folder / "circle");
+  EXPECT_THROW(FileHashes::fingerprint(folder.path()), Error);
+  EXPECT_THROW(FileHashes().of(folder.path()), Error);
+}
+
+TEST(CacheCosts, AreOfTheLastRecordsAndOfNodesThatRanAlone) {
+  const TemporaryFolder folder;
+  Cache cache({folder.path()});
+  CacheRecord record = some_record();
+  const auto keep = [&](int number, std::optional<std::uint64_t> growth) {
+    record.fields[2].value = std::to_string(number);
+    record.key = NodeKey{record.fields}.hex();
+    record.made = "2024-01-01T00:00:" + std::to_string(10 + number) + "Z";
+    record.growth = growth;
+    cache.keep(record);
+  };
+  const auto memory = [&] { return Costs(cache.places()).of("test.find", "shell/planes")->memory; };
+  keep(0, std::nullopt);
+  EXPECT_EQ(memory(), std::nullopt);
+  keep(1, 1'000'000'000'000);  // once, long ago
+  EXPECT_EQ(memory(), 1'000'000'000'000);
+  for (int i = 2; i < 22; ++i) keep(i, 1000 + i);
+  keep(30, 5'000'000);
+  EXPECT_EQ(memory(), 1021);  // the largest but one of the last 20
+  EXPECT_EQ(Costs(cache.places()).of("test.other", "shell/planes").has_value(), false);
 }
 
 TEST(CacheNearest, IsTheRecordWithTheFewestDifferences) {

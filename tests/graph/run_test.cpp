@@ -6,10 +6,13 @@
 #include <thread>
 
 #include "graph/api/helper_memory.hpp"
+#include "graph/cache/cache.hpp"
+#include "graph/cache/nearest.hpp"
 #include "graph/run/clocks.hpp"
 #include "graph/run/runner.hpp"
 #include "tests/graph/run_nodes.hpp"
 #include "tests/support/pipeline_builder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace atrium {
 namespace {
@@ -262,6 +265,58 @@ TEST(Run, HelperProgramsMemoryCounts) {
   const auto result = run(b.pipeline(), 1);
   EXPECT_GE(result.nodes[0].peak_memory, huge);
   EXPECT_LT(result.nodes[1].peak_memory, huge);
+}
+
+/// What the records say of how much memory each node needed.
+std::map<std::string, std::optional<std::uint64_t>> growths(const Pipeline& pipeline) {
+  const test::TemporaryFolder folder;
+  Cache cache({folder.path()});
+  RunOptions options;
+  options.threads = 2;
+  options.cache = &cache;
+  ProgressSink silent;
+  run_pipeline(pipeline, options, silent);
+  std::map<std::string, std::optional<std::uint64_t>> found;
+  for (const auto& record : records_of(cache.places(), "test.call")) found[record.node] = record.growth;
+  return found;
+}
+
+constexpr std::size_t large = 200'000'000;
+
+TEST(RunMemory, IsNotThatOfTheNodesBeside) {
+  PipelineBuilder b;
+  std::atomic<bool> allocated = false;
+  std::atomic<bool> seen = false;
+  const auto wait_for = [](const std::atomic<bool>& flag) {
+    while (!flag) std::this_thread::yield();
+  };
+  add_call(b, "large", [&](Context&) {
+    const std::vector<char> memory(large, 'x');
+    allocated = true;
+    wait_for(seen);
+    return value(memory[large / 2]);
+  });
+  add_call(b, "small", [&](Context&) {
+    wait_for(allocated);
+    seen = true;
+    return value(2);
+  });
+  const auto found = growths(b.pipeline());
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_LT(found.at("small").value_or(0), large / 2);
+}
+
+TEST(RunMemory, IsNotThatOfEarlierNodes) {
+  PipelineBuilder b;
+  const auto first = add_call(b, "large", [&](Context&) {
+    const std::vector<char> memory(large, 'x');
+    return value(memory[large / 2]);
+  });
+  add_call(b, "small", [](Context&) { return value(2); }, {{first, 0}});
+  const auto found = growths(b.pipeline());
+  ASSERT_TRUE(found.at("large") && found.at("small"));
+  EXPECT_GE(*found.at("large"), large * 3 / 4);
+  EXPECT_LT(*found.at("small"), large / 2);
 }
 
 TEST(Run, ACircleIsAnError) {

@@ -1,75 +1,15 @@
 // The cache as users meet it: what is known is not computed again, and nothing that happens to it makes a result wrong.
-#include <gtest/gtest.h>
-#include <sys/mount.h>
-
 #include <array>
 #include <csignal>
-#include <nlohmann/json.hpp>
+#include <map>
+#include <set>
 #include <thread>
 
 #include "graph/api/random.hpp"
-#include "tests/support/process.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/pipelines/cache_of_runs.hpp"
 
 namespace atrium::test {
 namespace {
-
-using nlohmann::json;
-namespace fs = std::filesystem;
-
-class CacheOfRuns : public testing::Test {
- protected:
-  CacheOfRuns() {
-    write_text(folder / "p.yaml", R"(atrium: 1
-vars: {number: 1}
-nodes:
-  first: {type: trial.fault, params: {number: "${number}", points: 50000, work: 0.05 s}}
-  second: {type: trial.fault, in: {after: first.cloud}, params: {points: 80000, work: 0.05 s}}
-  third: {type: trial.fault, in: {after: second.cloud}, params: {points: 20000, work: 0.05 s}}
-  write: {type: trial.write, in: {value: third.sum}, params: {path: sub/value.txt}}
-  cloud: {type: io.write_cloud, in: {cloud: third.cloud}, params: {path: cloud.ply}}
-outputs: {sum: third.sum, points: second.cloud}
-)");
-  }
-  ProcessResult atrium(std::vector<std::string> arguments, ProcessOptions options = {}) {
-    arguments.insert(arguments.begin(), ATRIUM_PROGRAM);
-    options.folder = folder.path();
-    options.environment.push_back("ATRIUM_PLUGIN_PATH=" ATRIUM_TRIAL_PLUGIN);
-    options.environment.push_back("ATRIUM_CACHE=" + (folder / "cache").string());
-    return run_process(arguments, options);
-  }
-  json manifest(const std::string& run) { return json::parse(read_text(folder / run / "manifest.json")); }
-  /// "first:miss second:hit …"
-  std::string uses(const std::string& run) {
-    std::string text;
-    const json all = manifest(run);
-    for (const auto& node : all["nodes"]) {
-      std::string use = node.contains("cache") ? node["cache"]["result"].get<std::string>() : "off";
-      if (use == "hit" && node["cache"].contains("why")) use = "again";
-      text += (text.empty() ? "" : " ") + node["node"].get<std::string>() + ":" + use;
-    }
-    return text;
-  }
-  /// All that a run shows but times: hashes of outputs, printed numbers, warnings, files with their bytes.
-  std::string shown(const std::string& run) {
-    std::string text;
-    const json all = manifest(run);
-    for (const auto& node : all["nodes"]) {
-      text += node["node"].get<std::string>() + node["status"].get<std::string>() + node["outputs"].dump();
-      if (node.contains("warnings")) text += node["warnings"].dump();
-      if (!node.contains("artefacts")) continue;
-      for (const auto& file : node["artefacts"])
-        text += file.dump() + read_text(folder / run / file["path"].get<std::string>());
-    }
-    return text + all["outputs"].dump();
-  }
-  void expect_sound() {
-    const auto result = atrium({"cache", "verify"});
-    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-  }
-
-  TemporaryFolder folder;
-};
 
 TEST_F(CacheOfRuns, ASecondRunComputesNothingAndShowsTheSame) {
   const auto cold = atrium({"run", "p.yaml", "--out", "cold"});
@@ -200,23 +140,6 @@ TEST_F(CacheOfRuns, TwoProcessesShareOne) {
   expect_sound();
 }
 
-TEST_F(CacheOfRuns, AFullDiskCostsTheCacheNotTheRun) {
-  fs::create_directories(folder / "small");
-  if (::mount("none", (folder / "small").c_str(), "tmpfs", 0, "size=100k") != 0)
-    GTEST_SKIP() << "a small file system can be mounted by root only";
-  const auto result = atrium({"run", "p.yaml", "--out", "r", "--cache", "small"});
-  const auto again = atrium({"run", "p.yaml", "--out", "r", "--cache", "small"});
-  const std::string uncached = (atrium({"run", "p.yaml", "--out", "off", "--no-cache"}), shown("off"));
-  const std::string cached = shown("r");
-  ::umount((folder / "small").c_str());
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(again.exit_code, 0);
-  const std::size_t first = result.err.find("nothing more is kept in this run");
-  EXPECT_NE(first, std::string::npos) << result.err;
-  EXPECT_EQ(result.err.find("nothing more is kept in this run", first + 1), std::string::npos) << result.err;
-  EXPECT_EQ(cached, uncached);
-}
-
 TEST_F(CacheOfRuns, NodesThatMisbehaveLeaveACacheThatWorks) {
   const auto with = [&](const std::string& mode) {
     return std::vector<std::string>{"run", "p.yaml", "--out", mode, "--quiet", "-s", "third.mode=" + mode};
@@ -256,18 +179,58 @@ outputs: {sum: after.sum}
   EXPECT_NE(result.err.find("fickle: run again, it gave another 'cloud' than before"), std::string::npos) << result.err;
 }
 
-TEST_F(CacheOfRuns, IsKeptBelowItsSize) {
-  atrium({"run", "p.yaml", "--out", "r", "--cache-size", "1 MB"});
-  const auto stat = json::parse(atrium({"cache", "stat", "--json"}).out);
-  EXPECT_LE(stat["all"]["bytes"], 1'000'000);
-  atrium({"run", "p.yaml", "--out", "r", "-s", "number=7"});
-  EXPECT_GT(json::parse(atrium({"cache", "stat", "--json"}).out)["all"]["bytes"], 1'000'000);
-  const auto gc = json::parse(atrium({"cache", "gc", "--cache-size", "500 kB", "--json"}).out);
-  EXPECT_LE(gc["bytes"], 500'000);
-  EXPECT_GT(gc["removed_files"], 0);
-  ASSERT_EQ(atrium({"run", "p.yaml", "--out", "again", "-s", "number=7"}).exit_code, 0);
-  EXPECT_EQ(shown("again"), shown("r"));
-  EXPECT_EQ(atrium({"cache", "gc", "--cache-size", "many"}).exit_code, 1);
+TEST_F(CacheOfRuns, WhatNeedsAValueThatCannotBeMadeAgainIsSkippedAlsoLater) {
+  write_text(folder / "f.yaml", R"(atrium: 1
+nodes:
+  fickle: {type: trial.fault, params: {points: 10, mode: fickle}}
+  slow: {type: trial.fault, params: {work: 0.5 s}}
+  after: {type: trial.fault, in: {after: fickle.cloud}}
+  both: {type: trial.step, in: {after: late.sum}}
+  late: {type: trial.fault, in: {after: chained.cloud}}
+  chained: {type: trial.fault, in: {after: fickle.cloud}, params: {work: 0.001 s}}
+outputs: {sum: after.sum, late: both.value, slow: slow.sum}
+)");
+  ASSERT_EQ(atrium({"run", "f.yaml", "--out", "first"}).exit_code, 0);
+  fs::remove_all(folder / "cache/values");
+  // `after` finds out that the value of `fickle` cannot be had; `joined`, which reads it too, is ready much later.
+  std::string text = read_text(folder / "f.yaml");
+  text.replace(text.find("outputs: {"), 10,
+               "  joined: {type: trial.join, in: {a: fickle.cloud, b: slow.cloud}}\n"
+               "  more: {type: trial.join, in: {a: chained.cloud, b: slow.cloud}}\n"
+               "outputs: {joined: joined.points, more: more.points, ");
+  write_text(folder / "f.yaml", text);
+  const auto result = atrium({"run", "f.yaml", "--out", "r", "-s", "after.number=3", "-s", "slow.number=3", "-j", "4"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  const json all = manifest("r");
+  EXPECT_EQ(all["status"], "failed");
+  std::map<std::string, std::string> status;
+  for (const auto& node : all["nodes"]) status[node["node"]] = node["status"];
+  EXPECT_EQ(status.at("fickle"), "failed");
+  for (const char* node : {"after", "joined", "more"}) EXPECT_EQ(status.at(node), "skipped") << node;
+  EXPECT_EQ(status.at("slow"), "ok");
+  for (const auto& node : all["nodes"]) EXPECT_EQ(node["status"] == "skipped", node.value("because", "") != "") << node;
+}
+
+TEST_F(CacheOfRuns, WhatWaitsForTwoValuesThatCannotBeMadeAgainIsSkippedOnce) {
+  write_text(folder / "f.yaml", R"(atrium: 1
+nodes:
+  one: {type: trial.fault, params: {points: 10, mode: fickle}}
+  other: {type: trial.fault, params: {points: 20, mode: fickle, work: 0.001 s}}
+outputs: {one: one.sum, other: other.sum}
+)");
+  ASSERT_EQ(atrium({"run", "f.yaml", "--out", "first"}).exit_code, 0);
+  fs::remove_all(folder / "cache/values");
+  std::string text = read_text(folder / "f.yaml");
+  text.replace(text.find("outputs: {"), 10,
+               "  joined: {type: trial.join, in: {a: one.cloud, b: other.cloud}}\n"
+               "outputs: {joined: joined.points, ");
+  write_text(folder / "f.yaml", text);
+  EXPECT_EQ(atrium({"run", "f.yaml", "--out", "r"}).exit_code, 1);
+  std::map<std::string, std::string> status;
+  const json all = manifest("r");
+  for (const auto& node : all["nodes"]) status[node["node"]] = node["status"];
+  EXPECT_EQ(status,
+            (std::map<std::string, std::string>{{"one", "failed"}, {"other", "failed"}, {"joined", "skipped"}}));
 }
 
 TEST_F(CacheOfRuns, AGrowingSweepRunsWhatIsNew) {
@@ -288,6 +251,33 @@ TEST_F(CacheOfRuns, AGrowingSweepRunsWhatIsNew) {
   for (const auto& entry : fs::recursive_directory_iterator(folder / "c"))
     files += entry.path().filename() == "cloud.ply" || entry.path().filename() == "value.txt" ? 1 : 0;
   EXPECT_EQ(files, 6U);
+}
+
+TEST_F(CacheOfRuns, WhyKnowsEveryNodeOfEveryVariant) {
+  const auto sweep = [&](const std::string& values) {
+    write_text(folder / "s.yaml", "atrium: 1\nsweep: p.yaml\ngrid: {third.number: [" + values + "]}\n");
+    const auto result = atrium({"sweep", "run", "s.yaml", "--out", "out"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::set<std::string> ids;
+    for (const auto& entry : fs::directory_iterator(folder / "out/variants")) ids.insert(entry.path().filename());
+    return ids;
+  };
+  const auto before = sweep("1, 2");
+  for (const auto& id : before)
+    for (const char* node : {"first", "third"}) {  // `first` is shared
+      const auto result = atrium({"why", "out", id + "/" + node});
+      EXPECT_EQ(result.exit_code, 0) << result.err;
+      EXPECT_TRUE(result.out.starts_with(id + "/" + node + " was run: not computed before\n")) << result.out;
+    }
+  const auto after = sweep("1, 2, 3");
+  for (const auto& id : after) {
+    const auto result = atrium({"why", "out", id + "/second", "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(json::parse(result.out)["result"], before.contains(id) ? "miss" : "hit");
+  }
+  EXPECT_NE(atrium({"why", "out", *after.begin() + "/secnd"}).err.find("did you mean 'second'"), std::string::npos);
+  EXPECT_NE(atrium({"why", "out", "nobody/second"}).err.find("no variant 'nobody'"), std::string::npos);
+  EXPECT_NE(atrium({"why", "out", "second"}).err.find("VARIANT/NODE"), std::string::npos);
 }
 
 TEST_F(CacheOfRuns, APlanSaysWhatIsKnownAndWhatTheRestCosts) {

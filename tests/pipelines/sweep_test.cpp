@@ -318,6 +318,47 @@ outputs: {first: first.value}
   EXPECT_EQ(read_text(file), good);
 }
 
+TEST_F(Sweep, AVariantWhoseInputChangedWhileItRanRunsAgain) {
+  const auto scan = [&](const std::string& y) { write_text(folder / "scan.xyz", "0 " + y + " 0\n1 0 0\n0 1 0\n"); };
+  write_text(folder / "read.yaml", R"(atrium: 1
+nodes:
+  scan: {type: io.read_scan, params: {path: scan.xyz}}
+  slow: {type: trial.fault, in: {after: scan.cloud}, params: {points: 1, work: 3 s}}
+outputs: {sum: slow.sum}
+)");
+  write_text(folder / "s.yaml", "atrium: 1\nsweep: read.yaml\ngrid: {slow.number: [0]}\nmetrics: {sum: sum}\n");
+  scan("5");
+  ProcessOptions options;
+  options.folder = folder.path();
+  options.environment.push_back("ATRIUM_PLUGIN_PATH=" ATRIUM_TRIAL_PLUGIN);
+  const auto never = std::chrono::steady_clock::time_point::max();
+  options.watch = [&, since = never, changed = false](pid_t /*process*/, const std::string& /*err*/) mutable {
+    std::error_code none;
+    const auto now = std::chrono::steady_clock::now();
+    for (const auto& variant : fs::directory_iterator(folder / "out/variants", none))
+      if (since == never && fs::exists(variant.path() / "resolved.yaml")) since = now;
+    if (changed || since == never || now - since < std::chrono::seconds(1)) return;
+    changed = true;
+    scan("7");  // of the same size
+  };
+  const auto first = run_process({ATRIUM_PROGRAM, "sweep", "run", "s.yaml", "--out", "out"}, options);
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_NE(first.err.find("a file that it reads was changed meanwhile"), std::string::npos) << first.err;
+  options.watch = nullptr;
+  const auto second = run_process({ATRIUM_PROGRAM, "sweep", "run", "s.yaml", "--out", "out"}, options);
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_EQ(second.err.find("before)"), std::string::npos) << second.err;
+  EXPECT_NE(second.out.find("  7  ok"), std::string::npos) << second.out;
+  // And now it is done, until the file is another of the same size and time.
+  const auto third = run_process({ATRIUM_PROGRAM, "sweep", "run", "s.yaml", "--out", "out"}, options);
+  EXPECT_NE(third.err.find("(1 before)"), std::string::npos) << third.err;
+  const auto time = fs::last_write_time(folder / "scan.xyz");
+  scan("8");
+  fs::last_write_time(folder / "scan.xyz", time);
+  EXPECT_NE(run_process({ATRIUM_PROGRAM, "sweep", "run", "s.yaml", "--out", "out"}, options).out.find("  8  ok"),
+            std::string::npos);
+}
+
 TEST_F(Sweep, GoesOnAfterItWasKilled) {
   sweep("list: {a: {second.value: 2}, b: {second.value: 3}, never: {second.mode: wait}}\nmetrics: {sum: number}\n");
   ProcessOptions options;
