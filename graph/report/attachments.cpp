@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <tuple>
 
+#include "graph/api/files.hpp"
 #include "graph/api/suggest.hpp"
 #include "graph/cache/blob.hpp"
 #include "graph/report/base64.hpp"
@@ -26,6 +26,12 @@ std::string media_type_of(const std::string& path) {
   if (extension == ".ply") return "model/ply";
   return {};
 }
+/// Whether a file has no place in so many bytes of a page, however well it can be deflated: it need not be read then.
+bool is_too_large(const fs::path& file, bool deflated, std::size_t room) {
+  constexpr std::uint64_t best_deflation = 16;  // of models and drawings
+  return fs::file_size(file) / (deflated ? best_deflation : 1) > room / 4 * 3 + 3;
+}
+
 bool is_picture(const std::string& path) { return media_type_of(path).starts_with("image/"); }
 
 /// The header of a PLY file names faces.
@@ -134,7 +140,7 @@ class Collector {
       result_.notes.push_back(fmt::format(
           "{} of {} {} are not in this file, to keep it small; they are in the variants' folders, and more room "
           "is given with --max-size{}.",
-          without, all, what, what == "models" ? " and --models" : ""));
+          without, all, what, what == "models" ? " and --most-models" : ""));
   }
 
   /// The file's index; nothing if there is no room for it or it cannot be read.
@@ -142,16 +148,16 @@ class Collector {
     const fs::path path = run.folder / file.path;
     const std::string hash = file.hash.empty() ? hash_if_readable(path) : file.hash;
     if (const auto known = known_.find(hash); known != known_.end()) return known->second;
-    if (bytes_ >= room) return std::nullopt;
-    std::ifstream stream(path, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream) {
+    Attachment attachment{media_type_of(file.path), file.path.ends_with(".svg") || !is_picture(file.path), {}};
+    std::string text;
+    try {
+      if (bytes_ >= room || is_too_large(path, attachment.deflated, room - bytes_)) return std::nullopt;
+      text = read_text(path);
+    } catch (const std::exception&) {
       unreadable_.push_back(path.string());
       return std::nullopt;
     }
-    Attachment attachment{media_type_of(file.path), file.path.ends_with(".svg") || !is_picture(file.path), {}};
-    attachment.base64 = to_base64(attachment.deflated ? deflated(text.str()) : text.str());
+    attachment.base64 = to_base64(attachment.deflated ? deflated(text) : text);
     if (bytes_ + attachment.base64.size() > room) return std::nullopt;
     bytes_ += attachment.base64.size();
     result_.files.push_back(std::move(attachment));

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <unordered_map>
 
 #include "graph/api/context.hpp"
+#include "graph/api/files.hpp"
 #include "graph/pipeline/pipeline.hpp"
 
 namespace atrium::report {
@@ -160,13 +159,10 @@ std::string escaped(const std::string& text) {
 }
 
 std::string read_page(const fs::path& page) {
-  std::ifstream stream(page, std::ios::binary);
-  if (!stream)
+  if (!fs::exists(page))
     throw Error("the page that reports are written into is not there: " + page.string(),
                 "npm bundles it when Atrium is built: ./share/install-packages --report, then ./share/build");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
+  return read_text(page);
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "graph/api/files.hpp"
 #include "graph/report/csv.hpp"
 #include "graph/run/run_folder.hpp"
 
@@ -18,13 +18,6 @@ namespace {
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 using Cell = SweepRecord::Cell;
-
-std::string read_text(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 Cell cell_of(const std::string& text) {
   if (text.empty()) return {};
@@ -79,11 +72,38 @@ SweepRecord::Metric split_title(const std::string& title) {
 }
 
 /// The columns of a sweep's table before its metrics: id, axes, and of random samples what was drawn.
-std::size_t leading_columns(const SweepRecord& record) {
-  std::size_t columns = 1;
-  for (const auto& axis : record.axes)
-    columns += 1 + (axis.name == "sample" && !axis.choices.empty() ? axis.choices.front().set.size() : 0);
+std::vector<std::string> leading_columns(const SweepRecord& record) {
+  std::vector<std::string> columns{"id"};
+  for (const auto& axis : record.axes) {
+    columns.push_back(axis.name);
+    if (axis.name != "sample" || axis.choices.empty()) continue;
+    for (const auto& [target, value] : axis.choices.front().set) columns.push_back(target);
+  }
   return columns;
+}
+
+bool has_choice(const SweepRecord::Axis& axis, const std::string& label) {
+  return std::any_of(axis.choices.begin(), axis.choices.end(),
+                     [&](const auto& choice) { return choice.label == label; });
+}
+
+using Rows = std::vector<std::vector<std::string>>;
+
+/// Whether the table is one of these axes: it is not if the sweep was changed, begun again and killed.
+bool is_table_of(const SweepRecord& record, const Rows& rows) {
+  const auto columns = leading_columns(record);
+  if (rows.empty() || rows.front().size() <= columns.size() ||
+      !std::equal(columns.begin(), columns.end(), rows.front().begin()))
+    return false;
+  return std::all_of(rows.begin() + 1, rows.end(), [&](const auto& row) {
+    std::size_t column = 0;
+    return row.size() == rows.front().size() &&
+           std::all_of(record.axes.begin(), record.axes.end(), [&](const auto& axis) {
+             while (columns[++column] != axis.name) {  // what was drawn
+             }
+             return has_choice(axis, row[column]);
+           });
+  });
 }
 
 void read_variant(const fs::path& folder, const std::string& status, SweepRecord& record,
@@ -100,12 +120,8 @@ void read_variant(const fs::path& folder, const std::string& status, SweepRecord
   }
 }
 
-void read_table(const fs::path& folder, SweepRecord& record) {
-  const auto rows = read_csv(read_text(folder / "table.csv"));
-  const std::size_t first = leading_columns(record);
-  if (rows.empty() || rows.front().size() < first + 1)
-    throw Error((folder / "table.csv").string() + " is not the table of " + (folder / "sweep.json").string(),
-                "run `atrium sweep run` again with the same --out");
+void read_table(const fs::path& folder, const Rows& rows, SweepRecord& record) {
+  const std::size_t first = leading_columns(record).size();
   std::vector<SweepRecord::Metric> metrics;
   for (std::size_t c = first; c + 1 < rows.front().size(); ++c) {
     metrics.push_back(split_title(rows.front()[c]));
@@ -115,7 +131,6 @@ void read_table(const fs::path& folder, SweepRecord& record) {
   record.metrics = std::move(metrics);
   for (std::size_t r = 1; r < rows.size(); ++r) {
     const auto& row = rows[r];
-    if (row.size() != rows.front().size()) continue;
     auto& variant = record.variants.emplace_back();
     variant.run.id = row.front();
     std::size_t column = 1;
@@ -144,6 +159,16 @@ void collect_metrics(SweepRecord& record) {
   }
 }
 
+/// Whether the variant is one of the sweep as it is now.
+bool is_variant_of(const SweepRecord& record, const RunRecord& run) {
+  const auto is_of = [&](const SweepRecord::Axis& axis) {
+    return std::any_of(run.choices.begin(), run.choices.end(), [&](const auto& choice) {
+      return choice.first == axis.name && has_choice(axis, choice.second);
+    });
+  };
+  return run.choices.size() == record.axes.size() && std::all_of(record.axes.begin(), record.axes.end(), is_of);
+}
+
 /// Without a table: the variants that are done.
 void read_variants(const fs::path& folder, SweepRecord& record) {
   std::vector<fs::path> folders;
@@ -151,8 +176,18 @@ void read_variants(const fs::path& folder, SweepRecord& record) {
   for (const auto& entry : fs::directory_iterator(folder / "variants", none))
     if (fs::exists(entry.path() / "result.json")) folders.push_back(entry.path());
   std::sort(folders.begin(), folders.end());
-  for (const auto& path : folders) record.variants.push_back({read_run(path), {}});
+  std::size_t others = 0;
+  for (const auto& path : folders) {
+    RunRecord run = read_run(path);
+    if (is_variant_of(record, run))
+      record.variants.push_back({std::move(run), {}});
+    else
+      ++others;
+  }
   record.notes.emplace_back("The sweep has not ended yet or was killed: only the variants that are done are shown.");
+  if (others > 0)
+    record.notes.push_back(
+        fmt::format("Left out: {} of what the sweep was before, with other axes or choices.", others));
   collect_metrics(record);
 }
 
@@ -163,8 +198,10 @@ SweepRecord read_sweep_folder(const fs::path& folder) {
   if (!fs::exists(folder)) throw Error("there is no folder " + folder.string());
   if (fs::exists(folder / sweep_mark)) {
     read_axes(folder / sweep_mark, record);
-    if (fs::exists(folder / "table.csv"))
-      read_table(folder, record);
+    const fs::path table = folder / "table.csv";
+    const Rows rows = fs::exists(table) ? read_csv(read_text(table)) : Rows{};
+    if (is_table_of(record, rows))
+      read_table(folder, rows, record);
     else
       read_variants(folder, record);
     if (record.variants.empty()) throw Error("no variant of the sweep in " + folder.string() + " is done yet");

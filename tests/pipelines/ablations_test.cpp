@@ -7,12 +7,20 @@ namespace atrium::test {
 namespace {
 
 TEST(Ablations, CanBePlanned) {
-  if (!fs::exists(scans)) GTEST_SKIP() << "no scans beside the checkout";
+  // The scans that they name are not read for a plan: stand-ins do, beside a copy of the checkout's pipelines.
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "checkout");
+  fs::copy(source / "pipelines", folder / "checkout/pipelines", fs::copy_options::recursive);
+  for (const auto& scene : fs::directory_iterator(source / "pipelines/comparisons/scenes")) {
+    const fs::path scan = folder / "shared/scans" / scene.path().stem();
+    fs::create_directories(scan);
+    for (const char* name : {"mesh.ply", "layout.json"}) write_text(scan / name, "");
+  }
   std::size_t files = 0;
-  for (const auto& entry : fs::directory_iterator(source / "pipelines/ablations")) {
+  for (const auto& entry : fs::directory_iterator(folder / "checkout/pipelines/ablations")) {
     if (entry.path().stem() == "base") continue;
     ++files;
-    const auto result = atrium({"sweep", "plan", "pipelines/ablations/" + entry.path().filename().string(), "--json"});
+    const auto result = atrium({"sweep", "plan", entry.path().string(), "--json"});
     ASSERT_EQ(result.exit_code, 0) << entry.path() << "\n" << result.err;
     const auto plan = nlohmann::json::parse(result.out);
     EXPECT_GE(plan.at("variants").size(), 36U) << entry.path();
@@ -50,6 +58,43 @@ ProcessResult example(const std::string& script, const fs::path& folder) {
   options.environment.push_back("ATRIUM=" ATRIUM_PROGRAM);
   options.timeout = 240;
   return run_process({(source / "share/examples" / script).string(), "out-" + script}, options);
+}
+
+TEST(Examples, PairsDifferInNothingButTheColumn) {
+  if (run_process({"sh", "-c", "command -v python3"}).exit_code != 0) GTEST_SKIP() << "python3 is not installed";
+  // error = 10 × noise + seed, and with method b `noise` more.
+  const TemporaryFolder folder;
+  const auto axis = [](const std::string& name, const std::vector<std::string>& labels) {
+    nlohmann::json json{{"name", name}, {"choices", nlohmann::json::array()}};
+    for (const auto& label : labels) json["choices"].push_back({{"label", label}, {"set", {{name, label}}}});
+    return json;
+  };
+  const nlohmann::json axes{axis("noise", {"1", "2"}), axis("method", {"a", "b"}), axis("seed", {"1", "3"})};
+  write_text(folder / "sweep.json", nlohmann::json{{"axes", axes}}.dump());
+  std::string table = "id,noise,method,seed,error [mm],remark,other,status\n";
+  for (int noise = 1; noise <= 2; ++noise)
+    for (const std::string method : {"a", "b"})
+      for (int seed = 1; seed <= 3; seed += 2) {
+        const int error = 10 * noise + seed + (method == "b" ? noise : 0);
+        table += "x," + std::to_string(noise) + "," + method + "," + std::to_string(seed) + "," +
+                 std::to_string(error) + ",good,,ok\n";
+      }
+  write_text(folder / "table.csv", table + "x,1,b,5,,,,failed: no\n");
+  const auto paired = [&](const std::vector<std::string>& arguments) {
+    std::vector<std::string> command{(source / "share/examples/paired.py").string(), folder.path().string()};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return run_process(command);
+  };
+  const auto result = paired({"method", "a"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out,
+            "| noise | method | error [mm] |\n"
+            "| --- | --- | --: |\n"
+            "| 1 | b | +1.00 ± 0.00 |\n"
+            "| 2 | b | +2.00 ± 0.00 |\n");
+  EXPECT_NE(paired({"method", "c"}).err.find("no variant has method = c"), std::string::npos);
+  EXPECT_NE(paired({"mthod", "a"}).err.find("does not vary 'mthod'"), std::string::npos);
+  EXPECT_NE(paired({"method", "a", "remark"}).err.find("no metric 'remark' that is a number"), std::string::npos);
 }
 
 TEST(Examples, InBashAndPythonDriveASweepAndFindItsBestVariant) {

@@ -135,7 +135,8 @@ TEST_F(Diff, RefusesWhatIsNoRun) {
   run("a");
   fs::create_directories(folder / "empty");
   const auto empty = atrium({"diff", "a", "empty"});
-  EXPECT_EQ(empty.exit_code, 1);
+  EXPECT_EQ(empty.exit_code, 2);  // 1 says that they differ
+  EXPECT_EQ(atrium({"diff", "a", "nowhere", "--exit-code"}).exit_code, 2);
   EXPECT_NE(empty.err.find("empty is no folder of a run"), std::string::npos) << empty.err;
   write_text(folder / "empty/manifest.json", "{\"status\": 3}");
   EXPECT_NE(atrium({"diff", "a", "empty"}).err.find("cannot be understood"), std::string::npos);

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "graph/report/attachments.hpp"
 #include "graph/report/base64.hpp"
 #include "graph/report/csv.hpp"
 #include "tests/support/process.hpp"
@@ -125,7 +126,7 @@ TEST_F(Report, IsTheSameForTheSameFolder) {
 
 TEST_F(Report, SaysWhatItLeavesOut) {
   make_sweep(folder.path());
-  const auto few = atrium({"report", "out", "--models", "2"}, folder.path());
+  const auto few = atrium({"report", "out", "--most-models", "2"}, folder.path());
   ASSERT_EQ(few.exit_code, 0) << few.err;
   EXPECT_NE(few.err.find("10 of 12 models are not in this file"), std::string::npos) << few.err;
   EXPECT_EQ(data_of(read_text(folder / "out/report.html")).at("notes").size(), 1U);
@@ -245,6 +246,63 @@ TEST(ReportPage, ThatWasNotBuiltIsNamedWithWhatToDo) {
   EXPECT_NE(result.err.find("share/atrium/report.html"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("install-packages --report"), std::string::npos) << result.err;
   EXPECT_FALSE(fs::exists(folder / "report.html"));
+}
+
+TEST(ReportParts, ATableOfOtherAxesIsNotTakenForTheSweeps) {
+  // A sweep over a.x had ended; its file was changed to vary b.y, begun again in the same folder, and killed.
+  const TemporaryFolder folder;
+  const auto variant = [&](const std::string& id, const std::string& axis, const std::string& choice) {
+    fs::create_directories(folder / ("variants/" + id));
+    const json result{{"id", id},
+                      {"status", "ok"},
+                      {"choices", {{axis, choice}, {"seed", "1"}}},
+                      {"nodes", json::array()},
+                      {"outputs", json::array()},
+                      {"artefacts", json::array()}};
+    write_text(folder / ("variants/" + id + "/result.json"), result.dump());
+    write_text(folder / ("variants/" + id + "/resolved.yaml"), "atrium: 1\nseed: 1\nnodes: {}\n");
+  };
+  const auto write_sweep = [&](const std::string& axis, const std::vector<std::string>& labels) {
+    json axes = json::array({{{"name", "seed"}, {"choices", {{{"label", "1"}, {"set", json::object()}}}}},
+                             {{"name", axis}, {"choices", json::array()}}});
+    for (const auto& label : labels) axes[1]["choices"].push_back({{"label", label}, {"set", json::object()}});
+    write_text(folder / "sweep.json", json{{"sweep", "/s.yaml"}, {"axes", axes}, {"metrics", json::array()}}.dump());
+  };
+  variant("old", "a.x", "1 cm");
+  variant("new", "b.y", "1 cm");
+  write_text(folder / "table.csv", "id,seed,a.x,count,status\nold,1,1 cm,7,ok\n");
+  const auto shown = [&] {
+    std::vector<std::string> ids;
+    const auto record = report::read_sweep_folder(folder.path());
+    for (const auto& found : record.variants) ids.push_back(found.run.id);
+    return std::pair(ids, record.notes.size());
+  };
+  using Ids = std::vector<std::string>;
+  write_sweep("a.x", {"1 cm", "2 cm"});
+  EXPECT_EQ(shown(), std::pair(Ids{"old"}, std::size_t{0}));
+  write_sweep("b.y", {"1 cm", "2 cm"});
+  EXPECT_EQ(shown(), std::pair(Ids{"new"}, std::size_t{2}));
+  // The same axes, other choices.
+  write_text(folder / "table.csv", "id,seed,b.y,count,status\ngone,1,5 cm,7,ok\n");
+  EXPECT_EQ(shown(), std::pair(Ids{"new"}, std::size_t{2}));
+  write_text(folder / "table.csv", "cut off");
+  EXPECT_EQ(shown(), std::pair(Ids{"new"}, std::size_t{2}));
+}
+
+TEST(ReportParts, AFileThatIsTooLargeIsNotRead) {
+  const TemporaryFolder folder;
+  write_text(folder / "model.glb", "");
+  fs::resize_file(folder / "model.glb", std::uintmax_t{1} << 36U);  // a hole: it takes no room on the disk
+  report::SweepRecord record;
+  report::RunRecord run;
+  run.folder = folder.path();
+  run.files = {{"model.glb", std::uintmax_t{1} << 36U, "some hash"}, {"gone.png", 10, "another hash"}};
+  record.variants.push_back({run, {}});
+  const auto attachments = report::attach(record, {});
+  EXPECT_TRUE(attachments.files.empty());
+  ASSERT_EQ(attachments.notes.size(), 3U);
+  EXPECT_TRUE(attachments.notes[1].starts_with("1 of 1 models are not in this file")) << attachments.notes[1];
+  EXPECT_NE(attachments.notes[2].find("gone.png cannot be read"), std::string::npos) << attachments.notes[2];
 }
 
 TEST(ReportParts, CsvIsReadAsItIsWritten) {
