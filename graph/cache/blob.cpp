@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "graph/api/context.hpp"
-#include "graph/cache/mapped_file.hpp"
+#include "graph/api/mapped_file.hpp"
 
 namespace atrium {
 namespace {
@@ -71,7 +71,7 @@ std::uint64_t flat_size(const FlatType& type, const void* value) {
 
 std::shared_ptr<const void> read_blob(const std::filesystem::path& file, const FlatType& type, const std::string& hash,
                                       const FlatReader::Resolve& resolve) {
-  const MappedFile map(file);
+  const MappedFile map(file, MappedFile::Kinds::regular);
   const Head head = checked_head(map, file);
   if (head.layout != type.layout) throw DamagedFile(file.string() + " holds a value of another layout");
   if (std::string_view(head.hash, sizeof head.hash) != hash) throw DamagedFile(file.string() + " holds another value");
@@ -85,10 +85,10 @@ std::shared_ptr<const void> read_blob(const std::filesystem::path& file, const F
   }
 }
 
-void check_blob(const std::filesystem::path& file) { checked_head(MappedFile(file), file); }
+void check_blob(const std::filesystem::path& file) { checked_head(MappedFile(file, MappedFile::Kinds::regular), file); }
 
 std::string hash_of_file(const std::filesystem::path& file) {
-  const MappedFile map(file);
+  const MappedFile map(file, MappedFile::Kinds::regular);
   return digest_of(map.data(), map.size());
 }
 

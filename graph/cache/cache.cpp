@@ -8,9 +8,9 @@
 
 #include "graph/api/context.hpp"
 #include "graph/api/files.hpp"
+#include "graph/api/mapped_file.hpp"
 #include "graph/cache/blob.hpp"
 #include "graph/cache/cache_folder.hpp"
-#include "graph/cache/mapped_file.hpp"
 #include "graph/cache/upkeep.hpp"
 #include "graph/run/clocks.hpp"
 
@@ -107,7 +107,7 @@ bool Cache::restore(const CacheRecord::File& file, const fs::path& target) {
   const fs::path source = places_.file(file.hash);
   std::optional<MappedFile> map;
   try {
-    map.emplace(source);
+    map.emplace(source, MappedFile::Kinds::regular);
   } catch (const Error&) {  // removed
     return false;
   }
@@ -206,7 +206,7 @@ void Cache::give_up(const std::string& why) {
 std::optional<std::string> Cache::keep_file(const fs::path& file) {
   if (!works()) return std::nullopt;
   try {
-    const MappedFile map(file);
+    const MappedFile map(file, MappedFile::Kinds::regular);
     ContentHash digest;
     digest.bytes(map.data(), map.size());
     std::string hash = digest.hex();

@@ -104,6 +104,8 @@ std::string FileHashes::of(const fs::path& path) {
 
 std::string FileHashes::of_file(const fs::path& file) {
   const struct stat before = status_of(file);
+  // To open a pipe is to take part in it.
+  if (!S_ISREG(before.st_mode)) throw Error(file.string() + " is no regular file: it has no hash");
   const bool racy = is_racy(before);  // before it is read, which may take longer than that
   const std::string fingerprint = text_with_device(before);
   const fs::path remembered = folder_.empty() ? fs::path() : folder_ / hash_of_text(fingerprint);

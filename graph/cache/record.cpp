@@ -1,49 +1,19 @@
 #include "graph/cache/record.hpp"
 
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
+
+#include "graph/run/record_json.hpp"
 
 namespace atrium {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int version = 2;
+constexpr int version = 3;
 
 std::string hash_of(std::string_view text) {
   ContentHash hash;
   hash.bytes(text.data(), text.size());
   return hash.hex();
-}
-
-/// JSON has no numbers that are not finite.
-Json fact_json(const Fact& fact) {
-  Json json{{"name", fact.name}, {"unit", fact.unit}};
-  const auto* number = std::get_if<double>(&fact.value);
-  if (number != nullptr && !std::isfinite(*number))
-    json["number"] = std::isnan(*number) ? "nan" : *number > 0 ? "inf" : "-inf";
-  else
-    std::visit([&](const auto& value) { json["value"] = value; }, fact.value);
-  return json;
-}
-
-Fact read_fact(const Json& json) {
-  Fact fact{json.at("name").get<std::string>(), {}, json.at("unit").get<std::string>()};
-  if (const auto special = json.find("number"); special != json.end()) {
-    const double infinity = std::numeric_limits<double>::infinity();
-    fact.value = *special == "nan" ? std::nan("") : *special == "inf" ? infinity : -infinity;
-    return fact;
-  }
-  const Json& value = json.at("value");
-  if (value.is_boolean())
-    fact.value = value.get<bool>();
-  else if (value.is_number_integer())
-    fact.value = value.get<std::int64_t>();
-  else if (value.is_number())
-    fact.value = value.get<double>();
-  else
-    fact.value = value.get<std::string>();
-  return fact;
 }
 
 Json outputs_json(const CacheRecord& record) {

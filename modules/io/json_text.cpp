@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "modules/io/mapped_file.hpp"
+#include "graph/api/mapped_file.hpp"
 
 namespace atrium::io {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "modules/io/mapped_file.hpp"
+#include "graph/api/mapped_file.hpp"
 #include "modules/io/scalar.hpp"
 
 namespace atrium::io {

@@ -6,7 +6,7 @@
 #include <initializer_list>
 
 #include "graph/api/error.hpp"
-#include "modules/io/mapped_file.hpp"
+#include "graph/api/mapped_file.hpp"
 #include "modules/io/obj_reader.hpp"
 #include "modules/io/paths.hpp"
 #include "modules/io/pcd_reader.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 #include "graph/api/context.hpp"
-#include "modules/io/mapped_file.hpp"
+#include "graph/api/mapped_file.hpp"
 #include "modules/io/raw_geometry.hpp"
 
 namespace atrium::io {

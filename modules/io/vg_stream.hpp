@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "modules/io/mapped_file.hpp"
+#include "graph/api/mapped_file.hpp"
 
 namespace atrium::io {
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <limits>
@@ -273,6 +274,12 @@ TEST(FileHashing, DoesNotBelieveADamagedLine) {
     write_text(line, bad);
     ASSERT_EQ(FileHashes(remembered.path()).of(file), hash_of_file(file)) << bad;
   }
+}
+
+TEST(FileHashing, TakesNothingFromAPipe) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(FileHashes().of(folder / "pipe"), Error);  // and does not wait for a writer
 }
 
 TEST(FileHashing, OfAFolderThatCannotBeReadIsAnError) {

@@ -1,16 +1,18 @@
 #pragma once
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace atrium::io {
+namespace atrium {
 
 /// A whole file, read-only in memory: mapped if it is a regular file, else read (pipes). Throws Error with the path and
 /// the system's reason. The file must not be cut short by others while it is mapped.
 class MappedFile {
  public:
-  explicit MappedFile(const std::string& path);
+  enum class Kinds { all, regular };  ///< regular: others are refused, as reading a pipe would take from it
+  explicit MappedFile(const std::filesystem::path& path, Kinds kinds = Kinds::all);
   ~MappedFile();
   MappedFile(const MappedFile&) = delete;
   MappedFile& operator=(const MappedFile&) = delete;
@@ -30,4 +32,4 @@ class MappedFile {
   std::vector<std::byte> buffer_;
 };
 
-}  // namespace atrium::io
+}  // namespace atrium

@@ -1,4 +1,4 @@
-#include "modules/io/mapped_file.hpp"
+#include "graph/api/mapped_file.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -10,7 +10,7 @@
 
 #include "graph/api/error.hpp"
 
-namespace atrium::io {
+namespace atrium {
 namespace {
 
 [[noreturn]] void fail(const std::string& path, int error) {
@@ -30,20 +30,21 @@ struct Descriptor {
 
 }  // namespace
 
-MappedFile::MappedFile(const std::string& path) : path_(path) {
-  const Descriptor file(path);
-  if (file.number < 0) fail(path, errno);
+MappedFile::MappedFile(const std::filesystem::path& path, Kinds kinds) : path_(path.string()) {
+  const Descriptor file(path_);
+  if (file.number < 0) fail(path_, errno);
   struct stat status {};
-  if (::fstat(file.number, &status) != 0) fail(path, errno);
-  if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
+  if (::fstat(file.number, &status) != 0) fail(path_, errno);
+  if (S_ISDIR(status.st_mode)) fail(path_, EISDIR);
   if (!S_ISREG(status.st_mode)) {
+    if (kinds == Kinds::regular) fail(path_, EINVAL);
     read_all(file.number);
     return;
   }
   size_ = static_cast<std::size_t>(status.st_size);
   if (size_ == 0) return;
   void* mapping = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, file.number, 0);
-  if (mapping == MAP_FAILED) fail(path, errno);
+  if (mapping == MAP_FAILED) fail(path_, errno);
   mapping_ = mapping;
   ::madvise(mapping_, size_, MADV_WILLNEED);
   data_ = static_cast<const std::byte*>(mapping_);
@@ -66,4 +67,4 @@ void MappedFile::read_all(int descriptor) {
   data_ = buffer_.data();
 }
 
-}  // namespace atrium::io
+}  // namespace atrium
