@@ -77,7 +77,7 @@ bool CollapsingMesh::same_side(std::uint32_t face, const Vector3d& old, const Ve
   const double old_length = old.norm(), length = now.norm();
   if (!(old_length > 0)) return true;
   const std::int32_t region = partition_.region[face];
-  if (region < 0) return now.dot(old) >= least_cosine * old_length * length;
+  if (region < 0 || !by_planes_) return now.dot(old) >= least_cosine * old_length * length;
   const Vector3d& normal = partition_.planes[static_cast<std::size_t>(region)].normal;
   const double before = normal.dot(old) / old_length;
   return normal.dot(now) >= std::min(least_cosine, before) * length;

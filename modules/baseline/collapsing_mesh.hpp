@@ -37,6 +37,8 @@ class CollapsingMesh {
   bool link_allows(std::uint32_t u, std::uint32_t v);
   /// Whether u's triangles without v keep their side and some thickness when u goes to `place`.
   bool stays_upright(std::uint32_t u, std::uint32_t v, const Eigen::Vector3d& place);
+  /// From now on a triangle's side is that of the triangle itself, not that of its region's plane.
+  void forget_planes() { by_planes_ = false; }
   /// u goes into v, and v to `place`; for the edge that shared() was last asked for.
   void merge(std::uint32_t u, std::uint32_t v, const Eigen::Vector3d& place);
 
@@ -60,6 +62,7 @@ class CollapsingMesh {
   std::vector<char> alive_;
   std::vector<std::vector<std::uint32_t>> faces_;
   std::size_t left_;
+  bool by_planes_ = true;
   std::vector<std::uint32_t> shared_, marks_;
   std::uint32_t mark_ = 0;
 };

@@ -21,6 +21,7 @@ using Eigen::Vector3d;
 constexpr double length_weight = 1e-6;    // shorter edges go first where the error is the same
 constexpr double parallel_cosine = 0.98;  // planes that do not tell where their border is
 constexpr std::size_t few = 1000;         // a round that collapses one in so many is the last
+constexpr double round_share = 0.03;      // of the triangles, at most so many go in a round without borders
 
 struct Candidate {
   double key;
@@ -60,11 +61,11 @@ class Collapse {
     project();
     set_quadrics();
     Collapsed result;
-    collapse_all();
+    collapse_all(1);
     result.with_borders = mesh_.left();
     if (limits_.triangles > 0 && mesh_.left() > limits_.triangles) {
       give_up_borders();
-      collapse_all();
+      collapse_all(round_share);
     }
     result.mesh = mesh_.result();
     result.too_far = too_far_;
@@ -76,15 +77,20 @@ class Collapse {
   const Plane& plane(std::int32_t r) const { return partition_.planes[static_cast<std::size_t>(r)]; }
   const Vector3d& place(std::uint32_t vertex) const { return mesh_.places()[vertex]; }
 
-  void collapse_all() {
+  // Edges that could not go at their turn get another one in each round: what costs little may go once its neighbours
+  // are gone, so a round ends before it comes to what costs much.
+  void collapse_all(double share) {
     for (std::size_t done = 1; done > 0 && mesh_.left() > limits_.triangles;) {
+      const auto most = static_cast<std::size_t>(std::ceil(share * static_cast<double>(mesh_.left())));
       fill_queue();
-      done = drain();
+      done = drain(std::max(limits_.triangles, mesh_.left() - std::min(most, mesh_.left())));
       if (done * few < mesh_.left()) break;
     }
   }
   // From here on only the error says what a border is worth; what holds the topology stays.
   void give_up_borders() {
+    borders_given_up_ = true;
+    mesh_.forget_planes();
     parts_.assign(parts_.size(), 0);
     kinds_ = vertex_kinds(source_, faces_of_vertices(source_), neighbours_, parts_, context_);
   }
@@ -216,17 +222,35 @@ class Collapse {
     }
   }
 
-  std::size_t drain() {
+  std::size_t drain(std::size_t triangles) {
     std::size_t done = 0, seen = 0;
     const auto is_current = [&](const Candidate& c) {
       return c.stamp == stamps_[c.u] + stamps_[c.v] && !mesh_.faces(c.u).empty() && !mesh_.faces(c.v).empty();
     };
     Candidate top{};
-    while (mesh_.left() > limits_.triangles && queue_.pop(top, is_current)) {
+    while (mesh_.left() > triangles && queue_.pop(top, is_current)) {
       if (++seen % 4096 == 0) context_.check_cancelled();
       done += try_edge(top.u, top.v) ? 1 : 0;
     }
     return done;
+  }
+
+  // Without borders an edge that may not go to the best place may still go to one of its ends.
+  bool find_upright(std::uint32_t u, const Edge& edge, Move& move) {
+    const std::uint32_t v = edge.other;
+    const auto upright = [&](const Vector3d& place) {
+      return mesh_.stays_upright(u, v, place) && mesh_.stays_upright(v, u, place);
+    };
+    if (upright(move.place)) return true;
+    if (!borders_given_up_ || !may_move(u, edge) || !may_move(v, edge)) return false;
+    QuadricError surface = quadrics_[u], border = borders_[u];
+    surface += quadrics_[v];
+    border += borders_[v];
+    for (const auto end : {u, v}) {
+      move.place = place(end);
+      if (is_near(surface, move.place) && is_near(border, move.place) && upright(move.place)) return true;
+    }
+    return false;
   }
 
   bool try_edge(std::uint32_t u, std::uint32_t v) {
@@ -234,8 +258,7 @@ class Collapse {
     if (shared.empty() || shared.size() > 2) return false;
     const Edge edge = edge_between(v, parts_[shared[0]], shared.size() == 2 ? parts_[shared[1]] : outside);
     Move move;
-    if (!find_move(u, edge, move) || !mesh_.link_allows(u, v)) return false;
-    if (!mesh_.stays_upright(u, v, move.place) || !mesh_.stays_upright(v, u, move.place)) return false;
+    if (!find_move(u, edge, move) || !mesh_.link_allows(u, v) || !find_upright(u, edge, move)) return false;
     if (move.keep_u) std::swap(u, v);
     mesh_.merge(u, v, move.place);
     quadrics_[v] += quadrics_[u];
@@ -259,6 +282,7 @@ class Collapse {
   std::vector<QuadricError> borders_;   // to the planes that hold borders
   std::vector<std::uint32_t> stamps_;   // how often a vertex changed
   BandedQueue<Candidate> queue_;
+  bool borders_given_up_ = false;
   bool too_far_ = false;     // whether max_error kept an edge, this time round
   std::vector<Edge> edges_;  // of the vertex at hand
 };

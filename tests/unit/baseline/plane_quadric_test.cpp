@@ -161,6 +161,26 @@ TEST(PlaneQuadric, ForATargetPatchesThatCostLeastAreGivenUpFirst) {
   EXPECT_NEAR(volume(mesh), 50, 0.3);  // the bump's planes pull at the corner that it went into
 }
 
+TEST(PlaneQuadric, ForATargetClutterGoesAndTheWallsStay) {
+  // A third of one side of a box is rough by 15 cm, as furniture is: it is in no plane.
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Mesh rough = box(Vector3d(4, 5, 2.5), 40);
+    Random random(seed);
+    for (auto& v : rough.vertices)
+      if (v.z() > 2.4 && (v - Vector3d(2, 2.5, 2.5)).norm() < 1.5) v.z() += random.uniform(-0.15, 0.15);
+    for (const std::int64_t target : {400, 100, 30}) {
+      const Mesh mesh = decimated(rough, {.triangles = target, .max_error = 0}).mesh;
+      EXPECT_LE(mesh.triangles.size(), static_cast<std::size_t>(target));
+      EXPECT_GE(mesh.triangles.size(), static_cast<std::size_t>(target) - 1);
+      expect_closed_manifold(mesh);
+      for (const double x : {0.0, 4.0})
+        for (const double y : {0.0, 5.0})
+          for (const double z : {0.0, 2.5}) EXPECT_LT(nearest_vertex(mesh, Vector3d(x, y, z)), 0.01) << target;
+      EXPECT_NEAR(volume(mesh), 50, 0.5) << target;
+    }
+  }
+}
+
 TEST(PlaneQuadric, BordersStayWhereTheTargetDoesNotNeedThem) {
   // A staircase of ten steps, open at its sides: twenty rectangles.
   Mesh stairs;
