@@ -89,7 +89,6 @@ class Collapse {
   }
   // From here on only the error says what a border is worth; what holds the topology stays.
   void give_up_borders() {
-    borders_given_up_ = true;
     mesh_.forget_planes();
     parts_.assign(parts_.size(), 0);
     kinds_ = vertex_kinds(source_, faces_of_vertices(source_), neighbours_, parts_, context_);
@@ -235,14 +234,14 @@ class Collapse {
     return done;
   }
 
-  // Without borders an edge that may not go to the best place may still go to one of its ends.
+  // An edge whose best place would turn a triangle over may still go to one of its ends.
   bool find_upright(std::uint32_t u, const Edge& edge, Move& move) {
     const std::uint32_t v = edge.other;
     const auto upright = [&](const Vector3d& place) {
       return mesh_.stays_upright(u, v, place) && mesh_.stays_upright(v, u, place);
     };
     if (upright(move.place)) return true;
-    if (!borders_given_up_ || !may_move(u, edge) || !may_move(v, edge)) return false;
+    if (!may_move(u, edge) || !may_move(v, edge)) return false;
     QuadricError surface = quadrics_[u], border = borders_[u];
     surface += quadrics_[v];
     border += borders_[v];
@@ -282,7 +281,6 @@ class Collapse {
   std::vector<QuadricError> borders_;   // to the planes that hold borders
   std::vector<std::uint32_t> stamps_;   // how often a vertex changed
   BandedQueue<Candidate> queue_;
-  bool borders_given_up_ = false;
   bool too_far_ = false;     // whether max_error kept an edge, this time round
   std::vector<Edge> edges_;  // of the vertex at hand
 };
