@@ -8,6 +8,7 @@
 
 #include "modules/geometry/triangle_tree.hpp"
 #include "modules/metric/mesh_samples.hpp"
+#include "modules/metric/self_intersections.hpp"
 #include "modules/metric/welded_mesh.hpp"
 
 namespace atrium::metric {
@@ -41,6 +42,18 @@ class Volume {
   double signed_ = 0;
 };
 
+// Whether a closed surface goes through itself or lies on itself; rounded coordinates cross by less than `depth`.
+bool is_folded(const std::vector<V>& vertices, const std::vector<Triangle>& triangles, const Context& context) {
+  constexpr double depth = 0.001;
+  std::vector<Triangle> faces = triangles;
+  std::erase_if(faces, [&](const Triangle& t) {
+    const V &a = vertices[t[0]], &b = vertices[t[1]], &c = vertices[t[2]];
+    return (b - a).cross(c - a).squaredNorm() == 0;
+  });
+  const auto found = self_intersections(vertices, faces, depth, context);
+  return found.deep_crossings > 0 || found.overlaps > 0;
+}
+
 std::vector<Volume> shells_of(const Mesh& mesh, const V& origin, const Context& context) {
   Mesh local;
   local.vertices = vertices_about(mesh, origin);
@@ -60,7 +73,8 @@ std::vector<Volume> shells_of(const Mesh& mesh, const V& origin, const Context& 
   });
   std::vector<Volume> shells;
   for (const auto& [group, component] : components)
-    if (!component.second) shells.emplace_back(surface.vertices, component.first);
+    if (!component.second && !is_folded(surface.vertices, component.first, context))
+      shells.emplace_back(surface.vertices, component.first);
   return shells;
 }
 
@@ -180,6 +194,7 @@ ClosedRooms::Out ClosedRooms::run(const In& in, const Params& params, Context& c
   const auto add = [&](const char* key, double value) {
     out.metrics.values.push_back({std::string("closed_rooms.") + key, value, ""});
   };
+  add("left_out", static_cast<double>(truth.open));
   add("true", static_cast<double>(truth.rooms.size()));
   add("shells", static_cast<double>(shells.size()));
   add("matched", static_cast<double>(matched));

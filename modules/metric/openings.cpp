@@ -136,10 +136,14 @@ void report(Metrics& metrics, const std::string& name, const Score& s, bool coun
   if (s.found + s.expected > 0) add("f1", 2 * s.matched, static_cast<double>(s.found + s.expected));
 }
 
-// Per room of the building the true room that it is, or -1.
+constexpr std::int32_t outside = -1, no_true_room = -2;
+
+// Per room of the building the true room that it is; of two found rooms the one that has more of it.
 std::vector<std::int32_t> true_rooms(const Building& building, const GroundTruth& truth) {
   constexpr double storey = 1, half = 0.5;
-  std::vector<std::int32_t> result(building.rooms.size(), -1);
+  std::vector<std::int32_t> result(building.rooms.size(), no_true_room);
+  std::vector<double> share(truth.rooms.size(), half);
+  std::vector<std::int32_t> best(truth.rooms.size(), -1);
   const Wall plan({Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()}, 0);
   for (std::size_t i = 0; i < result.size(); ++i) {
     const Outline& outline = building.rooms[i].outline;
@@ -148,9 +152,14 @@ std::vector<std::int32_t> true_rooms(const Building& building, const GroundTruth
       const Outline& expected = truth.rooms[k].outline;
       if (!is_simple(expected, "the true room '" + truth.rooms[k].name + "'")) continue;
       if (std::abs(outline.front().z() - expected.front().z()) > storey) continue;
-      if (shared(plan.projected(outline), plan.projected(expected)) > half) result[i] = static_cast<std::int32_t>(k);
+      if (const double common = shared(plan.projected(outline), plan.projected(expected)); common > share[k]) {
+        share[k] = common;
+        best[k] = static_cast<std::int32_t>(i);
+      }
     }
   }
+  for (std::size_t k = 0; k < best.size(); ++k)
+    if (best[k] >= 0) result[static_cast<std::size_t>(best[k])] = static_cast<std::int32_t>(k);
   return result;
 }
 
@@ -167,7 +176,7 @@ GroundTruth placed(const GroundTruth& truth, const Transform& transform, const E
 
 std::size_t joined_rightly(const std::vector<Pair>& pairs, const Building& building, const GroundTruth& truth) {
   const auto rooms = true_rooms(building, truth);
-  const auto room = [&](std::int32_t i) { return i < 0 || i >= std::ssize(rooms) ? -1 : rooms[i]; };
+  const auto room = [&](std::int32_t i) { return i < 0 || i >= std::ssize(rooms) ? outside : rooms[i]; };
   return static_cast<std::size_t>(std::count_if(pairs.begin(), pairs.end(), [&](const Pair& p) {
     const auto& found = building.openings[p.found];
     const auto& expected = truth.openings[p.expected];

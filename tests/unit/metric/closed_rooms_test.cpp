@@ -95,6 +95,18 @@ TEST(MetricClosedRooms, WhatIsOpenOrAroundAllRoomsIsNoRoom) {
   EXPECT_EQ(of(compare({}, truth), "recall"), 0);
 }
 
+TEST(MetricClosedRooms, WhatPassesThroughItselfIsNoRoom) {
+  Mesh box;
+  add_box(box, V(0, 0, 0), V(4, 5, 2.5));
+  const GroundTruth truth = truth_of(box, 1);
+  Mesh twisted = box;  // its ceiling turned by half a turn: as closed, manifold and oriented as before
+  for (auto& v : twisted.vertices)
+    if (v.z() > 1) v = V(4 - v.x(), 5 - v.y(), v.z());
+  EXPECT_EQ(of(compare(box, truth), "shells"), 1);
+  EXPECT_EQ(of(compare(twisted, truth), "shells"), 0);
+  EXPECT_EQ(of(compare(twisted, truth), "left_out"), 0);
+}
+
 TEST(MetricClosedRooms, ShareIsThatOfTheVolumes) {
   Mesh box;
   add_box(box, V(0, 0, 0), V(4, 5, 2.5));
@@ -143,6 +155,7 @@ TEST(MetricClosedRooms, BadInput) {
   GroundTruth open = truth_of(two_boxes(), 2);
   open.mesh.triangles.pop_back();
   EXPECT_EQ(of(compare(two_boxes(), open), "true"), 1);
+  EXPECT_EQ(of(compare(two_boxes(), open), "left_out"), 1);
   Mesh bad = two_boxes();
   bad.vertices[3].z() = std::numeric_limits<double>::infinity();
   EXPECT_THROW(compare(bad, truth_of(two_boxes(), 2)), Error);

@@ -143,6 +143,23 @@ TEST(MetricOpenings, KindAndRoomsMatter) {
   EXPECT_EQ(of(outside, "joined"), 0);
 }
 
+TEST(MetricOpenings, ARoomThatIsNoneIsNotTheOutside) {
+  GroundTruth truth = two_rooms();
+  truth.rooms.pop_back();
+  truth.openings[0].room_b = -1;
+  Building building = building_of(two_rooms());  // with a second room, where the truth is outside
+  EXPECT_EQ(of(compare(building, truth), "joined"), 0);
+  building.openings[0].room_b = -1;
+  EXPECT_EQ(of(compare(building, truth), "joined"), 1);
+  // Of two rooms that share more than half of the true one, the better is that room.
+  building = building_of(two_rooms());
+  building.rooms.push_back(building.rooms[0]);
+  for (auto& p : building.rooms.back().outline) p.y() *= 0.75;
+  EXPECT_EQ(of(compare(building, two_rooms()), "joined"), 1);
+  building.openings[0].room_a = 2;
+  EXPECT_EQ(of(compare(building, two_rooms()), "joined"), 0);
+}
+
 TEST(MetricOpenings, TiltedAndGeoreferencedIsTheSame) {
   const GroundTruth upright = truth_of<synth::Office>();
   Transform away;
