@@ -1,9 +1,13 @@
 #include "modules/layout/coverage.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "graph/api/error.hpp"
 
 namespace atrium::layout {
 namespace {
@@ -17,6 +21,13 @@ class Layers {
     Eigen::AlignedBox2d box;
     for (const auto& v : storey.vertices) box.extend(v);
     low_ = box.min();
+    for (; squares(box) > most_squares && fine_ > 4; pixel_ *= 2) fine_ /= 2;
+    if (squares(box) > most_squares)
+      throw Error(fmt::format("what may be walls, floors and ceilings of one storey lies {:.0f} m apart: too far to "
+                              "look at it in squares of {:.0f} mm",
+                              box.sizes().maxCoeff(), 1000 * pixel),
+                  "leave out what lies far from the building (filter.crop, filter.outliers), or take larger squares "
+                  "(`pixel`)");
     width_ = static_cast<int>(std::ceil(box.sizes().x() / pixel_)) + 1;
     height_ = static_cast<int>(std::ceil(box.sizes().y() / pixel_)) + 1;
     const auto size = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
@@ -51,6 +62,9 @@ class Layers {
   }
 
  private:
+  static constexpr double most_squares = 1 << 27;  // of 13 bytes
+  double squares(const Eigen::AlignedBox2d& box) const { return (box.sizes() / pixel_).prod(); }
+
   static constexpr double finest = 0.0125;  // metres: a tenth of a thin wall
 
   int column(double x) const { return std::clamp(static_cast<int>((x - low_.x()) / pixel_), 0, width_ - 1); }
@@ -166,14 +180,14 @@ void measure_cell(const Layers& layers, double pixel, double margin, const Store
   cell.any_cover = static_cast<double>(any) / samples;
 }
 
-/// The height at which a wall before `cell` ends.
-double ceiling_over(const StoreyCells& storey, std::int32_t cell, const Eigen::Vector2d& p) {
+/// The height at which a wall before `cell` ends. Where no ceilings were scanned, what looks like one is seldom one.
+double ceiling_over(const StoreyCells& storey, bool scanned, std::int32_t cell, const Eigen::Vector2d& p) {
   const CellCover* best = nullptr;
   if (cell >= 0)
     for (const auto& cover : storey.cells[static_cast<std::size_t>(cell)].ceilings)
       if (best == nullptr || cover.share > best->share) best = &cover;
-  constexpr double enough = 0.1;
-  if (best == nullptr || best->share < enough) return storey.ceiling_height;
+  constexpr double enough = 0.1, most = 0.5;
+  if (best == nullptr || best->share < (scanned ? enough : most)) return storey.ceiling_height;
   return storey.ceilings[static_cast<std::size_t>(best->surface)].height_at(p);
 }
 
@@ -191,7 +205,21 @@ double reaches(const Footprint& wall, const Eigen::Vector2d& p, double floor, do
   return std::min(1.0, seen / (enough * (last - first + 1)));
 }
 
-void measure_edge(const Structure& structure, const std::vector<Footprint>& footprints, double pixel,
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Where a wall ends over p, at most at the storey's own end; unknown_top: it has no points there.
+double top_at(const Footprint& wall, const Eigen::Vector2d& p, const StoreyCells& storey) {
+  const int column = wall.raster.column(wall.along.dot(p));
+  if (column < 0 || column >= wall.raster.width) return unknown_top;
+  const double top = wall.tops[static_cast<std::size_t>(column)];
+  return top > storey.floor_height ? std::min(top, storey.high) : unknown_top;
+}
+
+void measure_edge(const Structure& structure, const std::vector<Footprint>& footprints, double pixel, bool scanned,
                   const StoreyCells& storey, CellEdge& edge) {
   if (edge.line < 0) return;
   const CellLine& line = storey.lines[static_cast<std::size_t>(edge.line)];
@@ -200,22 +228,40 @@ void measure_edge(const Structure& structure, const std::vector<Footprint>& foot
   const Eigen::Vector2d& b = storey.vertices[edge.to];
   const Eigen::Vector2d left(a.y() - b.y(), b.x() - a.x());
   const int samples = std::max(1, static_cast<int>(std::ceil((b - a).norm() / pixel)));
+  std::vector<double> tops[2];
   for (int i = 0; i < samples; ++i) {
     const Eigen::Vector2d p = a + (b - a) * ((i + 0.5) / samples);
     double seen[2] = {0, 0};
+    double top[2] = {unknown_top, unknown_top};
     for (const auto primitive : line.primitives) {
       const auto index = static_cast<std::size_t>(primitive);
       const bool looks_left = structure.primitives->primitives[index].plane.normal.head<2>().dot(left) > 0;
-      const double ceiling = ceiling_over(storey, looks_left ? edge.left : edge.right, p);
-      double& share = seen[looks_left ? 0 : 1];
-      share = std::max(share, reaches(footprints[index], p, storey.floor_height, ceiling));
+      const double ceiling = ceiling_over(storey, scanned, looks_left ? edge.left : edge.right, p);
+      const std::size_t side = looks_left ? 0 : 1;
+      seen[side] = std::max(seen[side], reaches(footprints[index], p, storey.floor_height, ceiling));
+      top[side] = std::max(top[side], top_at(footprints[index], p, storey));
     }
+    for (std::size_t side = 0; side < 2; ++side)
+      if (top[side] != unknown_top) tops[side].push_back(top[side]);
     edge.wall_left += seen[0] / samples;
     edge.wall_right += seen[1] / samples;
   }
+  if (!tops[0].empty()) edge.top_left = median(tops[0]);
+  if (!tops[1].empty()) edge.top_right = median(tops[1]);
 }
 
 }  // namespace
+
+bool ceiling_scanned(const StoreyCells& storey) {
+  double floor = 0;
+  double ceiling = 0;
+  for (const auto& cell : storey.cells) {
+    floor += cell.area * cell.floor_cover;
+    ceiling += cell.area * cell.ceiling_cover;
+  }
+  constexpr double enough = 0.3;
+  return ceiling > enough * floor;
+}
 
 double mean_residual(const PlanePrimitives& planes) {
   double sum = 0;
@@ -246,7 +292,8 @@ void measure_coverage(const Structure& structure, const std::vector<Footprint>& 
   const Layers layers(structure, pixel, storey);
   for (std::size_t c = 0; c < storey.cells.size(); ++c)
     measure_cell(layers, pixel, margin, storey, static_cast<std::int32_t>(c), storey.cells[c]);
-  for (auto& edge : storey.edges) measure_edge(structure, footprints, pixel, storey, edge);
+  const bool scanned = ceiling_scanned(storey);
+  for (auto& edge : storey.edges) measure_edge(structure, footprints, pixel, scanned, storey, edge);
 }
 
 }  // namespace atrium::layout

@@ -11,6 +11,9 @@ namespace atrium::layout {
 void measure_coverage(const Structure& structure, const std::vector<Footprint>& footprints, double pixel,
                       StoreyCells& storey);
 
+/// Whether the ceiling of a measured storey was scanned at all: a third of what its floor shows.
+bool ceiling_scanned(const StoreyCells& storey);
+
 /// Mean RMS distance of points to their planes, weighted by their number: the noise, metres.
 double mean_residual(const PlanePrimitives& planes);
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
+#include "modules/layout/inferred_ceilings.hpp"
 #include "modules/layout/min_cut.hpp"
 
 namespace atrium::layout {
@@ -41,6 +43,27 @@ class Labelling {
     }
   }
 
+  /// Where a room has a surface of its own, by room, which was not seen: others are only where they cover most.
+  template <class Covers>
+  void prefer(const std::map<std::int32_t, std::int32_t>& inferred, Covers covers) {
+    for (std::size_t e = 0; e < cells_.size(); ++e) {
+      const LayoutCell& cell = storey_.cells[cells_[e]];
+      const auto own = inferred.find(cell.room);
+      for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+        const bool is_own = own != inferred.end() && own->second == static_cast<std::int32_t>(s);
+        if (own != inferred.end() && !is_own) costs_[e][s] = cell.area;
+        if (surfaces_[s].primitive < 0 && !is_own && (own != inferred.end() || is_of_a_room(inferred, s)))
+          costs_[e][s] += none;
+      }
+      if (own == inferred.end()) continue;
+      costs_[e][static_cast<std::size_t>(own->second)] = 0;
+      for (const CellCover& cover : covers(cell)) {
+        costs_[e][static_cast<std::size_t>(cover.surface)] -= cell.area * cover.share;
+        costs_[e][static_cast<std::size_t>(own->second)] += cell.area * cover.share;
+      }
+    }
+  }
+
   std::vector<std::int32_t> solve() {
     labels_.assign(cells_.size(), 0);
     for (std::size_t e = 0; e < cells_.size(); ++e)
@@ -57,6 +80,11 @@ class Labelling {
   }
 
  private:
+  static bool is_of_a_room(const std::map<std::int32_t, std::int32_t>& inferred, std::size_t surface) {
+    return std::any_of(inferred.begin(), inferred.end(),
+                       [&](const auto& own) { return own.second == static_cast<std::int32_t>(surface); });
+  }
+
   /// Area of the step between two surfaces over an edge, and the border itself.
   double step(const CellEdge& edge, std::size_t a, std::size_t b) const {
     if (a == b) return 0;
@@ -127,7 +155,7 @@ class Labelling {
   std::vector<std::size_t> labels_;
 };
 
-/// The least height of a ceiling over a floor among a cell's corners.
+/// The height of a ceiling over a floor amidst a cell.
 double clearance(const StoreyCells& storey, const LayoutCell& cell, const CellSurface& floor,
                  const CellSurface& ceiling) {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
@@ -143,16 +171,17 @@ void settle(StoreyCells& storey, const Heights::Params& params) {
       [](const LayoutCell&, std::size_t) { return false; });
   const auto floor_of = floors.solve();
   for (std::size_t i = 0; i < storey.cells.size(); ++i) storey.cells[i].floor = floor_of[i];
+  const auto inferred = infer_ceilings(storey, params.min_seen);
+  const auto covers = [](const LayoutCell& cell) -> const auto& { return cell.ceilings; };
   Labelling ceilings(storey, storey.ceilings, params);
-  ceilings.set_costs(
-      [](const LayoutCell& cell) -> const auto& { return cell.ceilings; },
-      [&](const LayoutCell& cell, std::size_t s) {
-        const auto& floor = storey.floors[static_cast<std::size_t>(cell.floor)];
-        const bool covers = std::any_of(cell.ceilings.begin(), cell.ceilings.end(), [&](const auto& c) {
-          return static_cast<std::size_t>(c.surface) == s && c.share > 0.5;
-        });
-        return !covers && clearance(storey, cell, floor, storey.ceilings[s]) < params.min_clearance;
-      });
+  ceilings.set_costs(covers, [&](const LayoutCell& cell, std::size_t s) {
+    const auto& floor = storey.floors[static_cast<std::size_t>(cell.floor)];
+    const bool covers = std::any_of(cell.ceilings.begin(), cell.ceilings.end(), [&](const auto& c) {
+      return static_cast<std::size_t>(c.surface) == s && c.share > 0.5;
+    });
+    return !covers && clearance(storey, cell, floor, storey.ceilings[s]) < params.min_clearance;
+  });
+  ceilings.prefer(inferred, covers);
   const auto ceiling_of = ceilings.solve();
   for (std::size_t i = 0; i < storey.cells.size(); ++i) storey.cells[i].ceiling = ceiling_of[i];
 }

@@ -11,6 +11,9 @@ namespace atrium::layout {
 /// was not seen takes the surface of its neighbours, and a surface ends where it meets the next. Ceilings less than
 /// min_clearance over the floor are none, where there is a choice.
 ///
+/// A room of which less than min_seen lies under a scanned ceiling has one of its own where its walls end (a third of
+/// their length rises higher), in cells that no scanned one covers for the most part.
+///
 /// Source: Y. Boykov, O. Veksler, R. Zabih, Fast approximate energy minimization via graph cuts, PAMI 23(11), 2001.
 struct Heights {
   static constexpr std::string_view type = "layout.heights";
@@ -25,6 +28,7 @@ struct Heights {
     double step_weight = 0.5;
     double border_weight = 0.02;
     double min_clearance = 0.5;
+    double min_seen = 0.3;
   };
   static constexpr auto inputs = std::tuple{port(&In::cells, "cells", "Cells with their rooms.")};
   static constexpr auto outputs = std::tuple{port(&Out::cells, "cells", "The same, each with its floor and ceiling.")};
@@ -32,7 +36,9 @@ struct Heights {
       param(&Params::step_weight, "step_weight", unitless, within(0, 100), "Of a step's area against a cell's."),
       param(&Params::border_weight, "border_weight", metres, within(0, 10),
             "Of a border between two surfaces: the height of a step that costs as much."),
-      param(&Params::min_clearance, "min_clearance", metres, within(0, 10), "Least height of a room.")};
+      param(&Params::min_clearance, "min_clearance", metres, within(0, 10), "Least height of a room."),
+      param(&Params::min_seen, "min_seen", ratio, within(0, 1),
+            "Share of a room's ceiling that must have been scanned; without, one is inferred.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

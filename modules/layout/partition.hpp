@@ -21,9 +21,9 @@ namespace atrium::layout {
 ///   furniture hides is hardest at the ceiling's edge, so cupboards do not count as walls unless they reach it.
 /// - A storey without a ceiling gets one where its walls end, one without a floor where they begin: inferred surfaces.
 ///
-/// No random numbers. A storey of nothing but walls is an error. Source: after S. Oesau, F. Lafarge, P. Alliez, Indoor
-/// scene reconstruction using feature sensitive primitive extraction and graph-cut, ISPRS J. 90, 2014, with bounded
-/// lines and coverage in the place of ray counts.
+/// No random numbers. Errors: a storey of nothing but walls; planes so far apart that their squares would fill the
+/// memory. Source: after S. Oesau, F. Lafarge, P. Alliez, Indoor scene reconstruction using feature sensitive primitive
+/// extraction and graph-cut, ISPRS J. 90, 2014, with bounded lines and coverage in the place of ray counts.
 struct Partition {
   static constexpr std::string_view type = "layout.partition";
   static constexpr std::string_view summary = "Cuts storeys into cells along their walls and measures their coverage.";

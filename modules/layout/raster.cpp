@@ -1,8 +1,13 @@
 #include "modules/layout/raster.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <numbers>
+
+#include "graph/api/error.hpp"
 
 namespace atrium::layout {
 namespace {
@@ -53,6 +58,12 @@ Raster rasterize(const std::vector<Eigen::Vector2d>& points, double pixel) {
   Eigen::AlignedBox2d box;
   for (const auto& p : points) box.extend(p);
   raster.low = (box.min() / pixel).array().floor() * pixel;
+  constexpr double most_squares = 1 << 27;
+  if ((box.sizes() / pixel + Eigen::Vector2d::Ones()).prod() > most_squares)
+    throw Error(fmt::format("the points of one plane lie up to {:.0f} m apart, too far for squares of {:.0f} mm",
+                            box.sizes().maxCoeff(), 1000 * pixel),
+                "leave out what lies far from the building (filter.crop, filter.outliers), or take larger squares "
+                "(`pixel`)");
   raster.width = raster.column(box.max().x()) + 1;
   raster.height = raster.row(box.max().y()) + 1;
   raster.bits.assign(static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height), 0);
@@ -66,7 +77,15 @@ Raster rasterize(const std::vector<Eigen::Vector2d>& points, double pixel) {
 
 Footprint footprint(const PlanePrimitive& primitive, const Cloud& cloud, double pixel) {
   Footprint result;
-  result.raster = rasterize(flattened(primitive, cloud, result), pixel);
+  const std::vector<Eigen::Vector2d> points = flattened(primitive, cloud, result);
+  result.raster = rasterize(points, pixel);
+  if (!result.upright) return result;
+  result.tops.assign(static_cast<std::size_t>(result.raster.width), std::numeric_limits<double>::lowest());
+  for (const auto& p : points) {
+    const int column = std::clamp(result.raster.column(p.x()), 0, result.raster.width - 1);
+    double& top = result.tops[static_cast<std::size_t>(column)];
+    top = std::max(top, p.y());
+  }
   return result;
 }
 

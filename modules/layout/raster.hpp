@@ -41,6 +41,7 @@ struct Footprint {
   bool upright = false;
   Eigen::Vector2d along = Eigen::Vector2d::UnitX();  ///< of walls
   Raster raster;
+  std::vector<double> tops;  ///< of walls, per column: the greatest z of its points; less than any z without points
 };
 Footprint footprint(const PlanePrimitive& primitive, const Cloud& cloud, double pixel);
 std::vector<Footprint> footprints(const PlanePrimitives& planes, double pixel, const Context& context);

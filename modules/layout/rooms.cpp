@@ -6,6 +6,7 @@
 #include <boost/pending/disjoint_sets.hpp>
 #include <numeric>
 
+#include "modules/layout/coverage.hpp"
 #include "modules/layout/hidden_walls.hpp"
 #include "modules/layout/min_cut.hpp"
 
@@ -16,24 +17,12 @@ double length_of(const StoreyCells& storey, const CellEdge& edge) {
   return (storey.vertices[edge.to] - storey.vertices[edge.from]).norm();
 }
 
-/// Whether the ceiling of the storey was scanned at all.
-bool has_ceiling(const StoreyCells& storey) {
-  double floor = 0;
-  double ceiling = 0;
-  for (const auto& cell : storey.cells) {
-    floor += cell.area * cell.floor_cover;
-    ceiling += cell.area * cell.ceiling_cover;
-  }
-  constexpr double enough = 0.3;
-  return ceiling > enough * floor;
-}
-
 class Energy {
  public:
   Energy(const StoreyCells& storey, const Rooms::Params& params)
       : storey_(storey),
         params_(params),
-        ceiling_(has_ceiling(storey)),
+        ceiling_(ceiling_scanned(storey)),
         hidden_(hidden_walls(storey, ceiling_)),
         cut_(storey.cells.size() + 1) {}
 

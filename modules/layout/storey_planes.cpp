@@ -121,9 +121,20 @@ class Storey {
                   "a room needs planes around it: does the scan show one?");
     constexpr double most = 0.8;
     planes_.floor_height = planes_.floors.empty() ? quantile(bottoms_, 1 - most) : height(*largest(planes_.floors));
-    planes_.ceiling_height = planes_.ceilings.empty() ? quantile(tops_, most) : height(*largest(planes_.ceilings));
+    const bool scanned =
+        !planes_.ceilings.empty() && (tops_.empty() || 3 * area(planes_.ceilings) >= area(planes_.floors));
+    planes_.ceiling_height = scanned ? height(*largest(planes_.ceilings)) : quantile(tops_, most);
     if (planes_.floors.empty()) planes_.floors.push_back({{{0, 0, 1}, -planes_.floor_height}, -1, {}});
-    if (planes_.ceilings.empty()) planes_.ceilings.push_back({{{0, 0, -1}, planes_.ceiling_height}, -1, {}});
+    if (!scanned) planes_.ceilings.push_back({{{0, 0, -1}, planes_.ceiling_height}, -1, {}});
+  }
+
+  double area(const std::vector<CellSurface>& surfaces) const {
+    double sum = 0;
+    for (const auto& s : surfaces) {
+      sum += raster(s.primitive).area();
+      for (const auto joined : s.joined) sum += raster(joined).area();
+    }
+    return sum;
   }
 
   /// Surfaces that nowhere differ from a larger one by more than the gap are that one.

@@ -74,16 +74,24 @@ class Turning {
     }
     sort_by_area(free);
     while (!free.empty()) {
-      const Eigen::Vector3d first = planes_[free.front()].plane.normal;
-      std::erase_if(free, [&](std::size_t i) {
-        const Eigen::Vector3d& n = planes_[i].plane.normal;
-        const double flat = std::hypot(first.x(), first.y());
-        const double turn_by =
-            quarter * std::round((std::atan2(n.y(), n.x()) - std::atan2(first.y(), first.x())) / quarter);
-        const double heading = std::atan2(first.y(), first.x()) + turn_by;
-        const Eigen::Vector3d like(flat * std::cos(heading), flat * std::sin(heading), std::copysign(first.z(), n.z()));
-        return i == free.front() || turn(i, like);
-      });
+      const std::size_t front = free.front();
+      const Slope first = slope(front);
+      int members = 0;
+      double tilts = 0, tilt_weight = 0, turns = 0, turn_weight = 0;
+      for (const auto i : free) {
+        if (i != front && !fits(i, like(i, first))) continue;
+        ++members;
+        const auto [tilt, heading] = slope_certainty(i);
+        tilts += tilt * (slope(i).tilt - first.tilt);
+        tilt_weight += tilt;
+        turns += heading * std::remainder(slope(i).heading - first.heading, quarter);
+        turn_weight += heading;
+      }
+      Slope mean = first;
+      if (tilt_weight > 0) mean.tilt += tilts / tilt_weight;
+      if (turn_weight > 0) mean.heading += turns / turn_weight;
+      if (members > 1) turn(front, like(front, mean));
+      std::erase_if(free, [&](std::size_t i) { return i == front || turn(i, like(i, mean)); });
     }
   }
 
@@ -91,6 +99,30 @@ class Turning {
   int families() const { return families_; }
 
  private:
+  struct Slope {
+    double tilt, heading;  // radians
+  };
+  Slope slope(std::size_t i) const {
+    const Eigen::Vector3d& n = planes_[i].plane.normal;
+    return {std::atan2(n.head<2>().norm(), std::abs(n.z())), heading(i)};
+  }
+  /// The normal of plane i with another slope, on the axis of its family and the side that is nearest.
+  Eigen::Vector3d like(std::size_t i, const Slope& slope) const {
+    const Eigen::Vector3d flat = nearest(i, slope.heading) * std::sin(slope.tilt);
+    return {flat.x(), flat.y(), std::copysign(std::cos(slope.tilt), planes_[i].plane.normal.z())};
+  }
+  /// What tilt and heading of a slanted plane are known by: its points times their variance down the slope and along
+  /// it.
+  Slope slope_certainty(std::size_t i) const {
+    const Moments& moments = planes_[i].moments;
+    const Eigen::Vector3d& n = planes_[i].plane.normal;
+    const Eigen::Vector3d level = Eigen::Vector3d::UnitZ().cross(n).normalized();
+    const Eigen::Vector3d down = n.cross(level);
+    const auto certainty = [&](const Eigen::Vector3d& along) {
+      return static_cast<double>(moments.count) * std::max(0.0, along.dot(moments.covariance() * along));
+    };
+    return {certainty(down), certainty(level) * n.head<2>().squaredNorm()};
+  }
   double heading(std::size_t i) const {
     const Eigen::Vector3d& n = planes_[i].plane.normal;
     return std::atan2(n.y(), n.x());
@@ -112,8 +144,8 @@ class Turning {
     const double angle = family + quarter * std::round((heading(i) - family) / quarter);
     return {std::cos(angle), std::sin(angle), 0};
   }
-  bool fits(std::size_t i, double family) const {
-    const Eigen::Vector3d normal = nearest(i, family);
+  bool fits(std::size_t i, double family) const { return fits(i, nearest(i, family)); }
+  bool fits(std::size_t i, const Eigen::Vector3d& normal) const {
     const MeasuredPlane& plane = planes_[i];
     if (normal.dot(plane.plane.normal) < least_cosine_) return false;
     return plane.reach_to({normal, -normal.dot(plane.moments.mean())}) <= distance_;

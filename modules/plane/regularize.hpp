@@ -13,7 +13,9 @@ namespace atrium::plane {
 /// 2. Vertical planes: their directions modulo 90° are gathered into families, the widest surfaces first; each plane
 ///    within reach takes the mean direction of its family, weighted by what its points tell of it (their number times
 ///    their variance along the wall).
-/// 3. Other planes that are parallel (or the mirror image, as the two sides of a roof) within reach take the same tilt.
+/// 3. Other planes that are parallel (or the mirror image, as the two sides of a roof) within reach take the same
+/// slope:
+///    the mean of their tilts and headings, each weighted by what its points tell of it.
 ///
 /// No random numbers. Errors: none; without planes there is nothing to do. Source: after regularization in F. Lafarge,
 /// C. Mallet, Creating large-scale city models from 3D-point clouds, IJCV 99, 2012 (parallelism, orthogonality), with

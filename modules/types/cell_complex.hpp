@@ -30,18 +30,23 @@ struct CellLine {
   std::vector<std::int32_t> primitives;  ///< walls on it; none: slanted surfaces meet over it, or the border
 };
 
+constexpr double unknown_top = -1e9;  ///< of an edge without walls
+
 /// A side that two cells share, or one cell and the outside of the complex.
 struct CellEdge {
   static constexpr auto members() {
-    return std::tuple{&CellEdge::from, &CellEdge::to,        &CellEdge::left,      &CellEdge::right,
-                      &CellEdge::line, &CellEdge::wall_left, &CellEdge::wall_right};
+    return std::tuple{&CellEdge::from,       &CellEdge::to,       &CellEdge::left,
+                      &CellEdge::right,      &CellEdge::line,     &CellEdge::wall_left,
+                      &CellEdge::wall_right, &CellEdge::top_left, &CellEdge::top_right};
   }
   std::uint32_t from = 0, to = 0;  ///< vertices
   std::int32_t left = -1;          ///< the cell left of from → to
   std::int32_t right = -1;
   std::int32_t line = -1;
-  double wall_left = 0;   ///< share of its length on which a wall that looks to the left reaches the ceiling
-  double wall_right = 0;  ///< the same for walls that look to the right
+  double wall_left = 0;            ///< share of its length on which a wall that looks to the left reaches the ceiling
+  double wall_right = 0;           ///< the same for walls that look to the right
+  double top_left = unknown_top;   ///< where the walls end that look to the left, metres; the median along the edge
+  double top_right = unknown_top;  ///< the same for walls that look to the right
 };
 
 /// How much of a cell a surface covers.

@@ -229,6 +229,48 @@ TEST(Layout, AFloorAndACeilingWithoutWalls) {
   EXPECT_EQ(layout.warnings->mention("no room"), layout.building.rooms.empty());
 }
 
+TEST(Layout, WithoutACeilingEachRoomEndsWhereItsWallsDo) {
+  Scene scene;
+  scene.floor(0, 0, 4, 3).walls(box(0, 0, 4, 3), 0, 0, 2.6);
+  scene.floor(4.12, 0, 7, 3).walls(box(4.12, 0, 7, 3), 0, 0, 2.3);
+  // A board on the wall, seen from below, is no ceiling; nor is what hides the top of a wall.
+  scene.ceiling(0, 0, 1, 0.6, 1.9);
+  const auto layout = laid_out(scene.planes());
+  EXPECT_EQ(flaw(layout), "");
+  ASSERT_EQ(layout.building.rooms.size(), 2U);
+  EXPECT_NEAR(layout.building.rooms[0].height, 2.6, 0.02);
+  EXPECT_NEAR(layout.building.rooms[1].height, 2.3, 0.02);
+  for (const auto& face : layout.building.faces)
+    if (face.surface == SurfaceClass::ceiling) EXPECT_EQ(face.primitive, -1);
+}
+
+TEST(Layout, ARoomWhoseCeilingWasSeenKeepsItBesideOneWhereItWasNot) {
+  Scene scene;
+  scene.floor(0, 0, 4, 3).walls(box(0, 0, 4, 3), 0, 0, 2.6).ceiling(0, 0, 4, 3, 2.6);
+  scene.floor(4.12, 0, 7, 3).walls(box(4.12, 0, 7, 3), 0, 0, 2.45);
+  const auto layout = laid_out(scene.planes());
+  EXPECT_EQ(flaw(layout), "");
+  ASSERT_EQ(layout.building.rooms.size(), 2U);
+  EXPECT_NEAR(layout.building.rooms[0].height, 2.6, 1e-4);
+  EXPECT_NEAR(layout.building.rooms[1].height, 2.45, 0.02);
+}
+
+TEST(Layout, PlanesKilometresApartAreRefused) {
+  const auto refused = [](const PlanePrimitives& planes) {
+    const std::string error = error_of(planes);
+    return error.find("m apart") != std::string::npos && error.find("too far") != std::string::npos;
+  };
+  Scene scene = box_room();
+  scene.wall(3000, 2000, 3008, 2000);  // a stray wall
+  EXPECT_TRUE(refused(scene.planes()));
+  // One plane of two far pieces.
+  PlanePrimitives planes = Scene().floor(0, 0, 4, 3).floor(9000, 9000, 9004, 9003).walls(box(0, 0, 4, 3)).unsorted();
+  auto& floor = planes.primitives[0].inliers;
+  floor.insert(floor.end(), planes.primitives[1].inliers.begin(), planes.primitives[1].inliers.end());
+  planes.primitives.erase(planes.primitives.begin() + 1);
+  EXPECT_TRUE(refused(planes));
+}
+
 TEST(Layout, WhatShowsNoRoomHasADefinedAnswer) {
   const auto level = [](const std::string& text) { return text.find("level") != std::string::npos; };
   EXPECT_TRUE(level(error_of(PlanePrimitives{})));

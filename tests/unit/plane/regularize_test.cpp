@@ -100,6 +100,16 @@ TEST(Regularize, TheSidesOfARoofTakeOneTilt) {
   EXPECT_NEAR(out[0].plane.normal.x(), -out[1].plane.normal.x(), 1e-12);
 }
 
+TEST(Regularize, TheTiltOfARoofIsTheMeanOfItsSides) {
+  // Two sides alike but for their tilts, which noise made 0.2 degrees different.
+  Rooms rooms;
+  const double a = 45 * degree, b = 45.2 * degree;
+  rooms.add({0, 0, 0}, {4, 0, 0}, {0, 2 * std::cos(a), 2 * std::sin(a)}, {0, std::sin(a), -std::cos(a)});
+  rooms.add({0, 6, 0}, {4, 0, 0}, {0, -2 * std::cos(b), 2 * std::sin(b)}, {0, -std::sin(b), -std::cos(b)});
+  for (const auto& primitive : regular(rooms.unsorted()).primitives)
+    EXPECT_NEAR(std::acos(-primitive.plane.normal.z()) / degree, 45.1, 1e-3);
+}
+
 TEST(Regularize, NothingToDo) {
   EXPECT_TRUE(regular(PlanePrimitives{}).primitives.empty());
   PlanePrimitives planes = Rooms().floor(0, 0, 3, 3).unsorted();
