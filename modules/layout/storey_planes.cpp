@@ -255,6 +255,15 @@ std::pair<double, double> largest_level(const Structure& structure, const std::v
   return best;
 }
 
+/// Where the lowest wall of a storey begins; `far` without walls.
+double lowest_wall(const Structure& structure, const std::vector<Footprint>& footprints, std::int32_t storey) {
+  double lowest = far;
+  for (std::size_t i = 0; i < structure.classes.size(); ++i)
+    if (structure.storeys[i] == storey && structure.classes[i] == SurfaceClass::wall && !footprints[i].raster.empty())
+      lowest = std::min(lowest, footprints[i].raster.low.y());
+  return lowest;
+}
+
 }  // namespace
 
 std::vector<StoreyPlanes> storey_planes(const Structure& structure, const std::vector<Footprint>& footprints,
@@ -267,7 +276,11 @@ std::vector<StoreyPlanes> storey_planes(const Structure& structure, const std::v
     if (s + 1 < structure.storey_count) {
       const auto ceiling = largest_level(structure, footprints, s, SurfaceClass::ceiling);
       const auto floor = largest_level(structure, footprints, s + 1, SurfaceClass::floor);
-      high = ceiling.second > 0 && ceiling.first < floor.first ? (ceiling.first + floor.first) / 2 : floor.first - slab;
+      if (floor.second == 0)
+        high = ceiling.second > 0 ? ceiling.first + slab / 2 : lowest_wall(structure, footprints, s + 1) - slab / 2;
+      else
+        high =
+            ceiling.second > 0 && ceiling.first < floor.first ? (ceiling.first + floor.first) / 2 : floor.first - slab;
     }
     result.push_back(Storey(structure, footprints, s).run(low, high, min_gap));
     low = high;

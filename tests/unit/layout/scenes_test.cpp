@@ -229,6 +229,19 @@ TEST(Layout, AFloorAndACeilingWithoutWalls) {
   EXPECT_EQ(layout.warnings->mention("no room"), layout.building.rooms.empty());
 }
 
+TEST(Layout, AnUpperStoreyWhoseFloorShowsInStripsOnly) {
+  for (const double height : {0.0, 20.0, -20.0}) {
+    Scene scene;
+    add_box(scene, 0, 0, 5, 4, height, height + 2.5);
+    scene.floor(0, 0, 5, 4, height + 2.8, [](const Vector3d& p) { return std::fmod(p.y(), 0.6) < 0.3; });
+    scene.ceiling(0, 0, 5, 4, height + 5.3).walls(box(0, 0, 5, 4), 0, height + 2.8, height + 5.3);
+    const auto layout = laid_out(scene.planes());
+    EXPECT_EQ(flaw(layout), "") << height;
+    ASSERT_EQ(layout.building.rooms.size(), 2U) << height;
+    for (const auto& room : layout.building.rooms) EXPECT_NEAR(room.height, 2.5, 0.06) << height;
+  }
+}
+
 TEST(Layout, WithoutACeilingEachRoomEndsWhereItsWallsDo) {
   Scene scene;
   scene.floor(0, 0, 4, 3).walls(box(0, 0, 4, 3), 0, 0, 2.6);
