@@ -57,17 +57,20 @@ class NeighbourLists {
 
 class Growth {
  public:
-  Growth(const VoxelGrid& grid, const GrowthLimits& limits, const Context& context)
+  Growth(const VoxelGrid& grid, const GrowthLimits& limits, std::vector<std::uint32_t>& hopeless,
+         const Context& context)
       : grid_(grid),
         neighbours_(grid, context),
         limits_(limits),
         context_(context),
         region_of_(grid.voxels().size(), no_region),
-        hopeless_(grid.voxels().size(), false) {}
+        hopeless_(hopeless) {
+    hopeless_.resize(grid.voxels().size(), 0);
+  }
 
   std::vector<Region> run() {
     for (const std::uint32_t seed : seeds()) {
-      if (region_of_[seed] != no_region || hopeless_[seed]) continue;
+      if (region_of_[seed] != no_region || hopeless_[seed] == grid_.voxels()[seed].moments.count) continue;
       Region region = grow(seed);
       if (region.moments.count >= limits_.min_points) {
         regions_.push_back(std::move(region));
@@ -76,7 +79,7 @@ class Growth {
         const bool small = region.moments.count < limits_.min_points / 2;
         for (const std::uint32_t v : region.voxels) {
           region_of_[v] = no_region;
-          if (small) hopeless_[v] = true;
+          if (small) hopeless_[v] = static_cast<std::uint32_t>(grid_.voxels()[v].moments.count);
         }
       }
       if (++grown_ % 1024 == 0) context_.check_cancelled();
@@ -216,15 +219,16 @@ class Growth {
   GrowthLimits limits_;
   const Context& context_;
   std::vector<std::uint32_t> region_of_;
-  std::vector<bool> hopeless_;  ///< as a seed
+  std::vector<std::uint32_t>& hopeless_;
   std::vector<Region> regions_;
   std::size_t grown_ = 0;
 };
 
 }  // namespace
 
-std::vector<Region> grow_regions(const VoxelGrid& grid, const GrowthLimits& limits, const Context& context) {
-  return Growth(grid, limits, context).run();
+std::vector<Region> grow_regions(const VoxelGrid& grid, const GrowthLimits& limits,
+                                 std::vector<std::uint32_t>& hopeless, const Context& context) {
+  return Growth(grid, limits, hopeless, context).run();
 }
 
 }  // namespace atrium::plane

@@ -24,6 +24,10 @@ struct GrowthLimits {
 
 /// Grows regions from the flattest voxels over neighbouring voxels, with refits, and merges neighbouring regions that
 /// are one plane. By falling number of points.
-std::vector<Region> grow_regions(const VoxelGrid& grid, const GrowthLimits& limits, const Context& context);
+///
+/// `hopeless`: for each voxel the number of free points with which it has led, as a seed, to far too small a region;
+/// such a seed is not tried again while it has as many. Zeros at first.
+std::vector<Region> grow_regions(const VoxelGrid& grid, const GrowthLimits& limits,
+                                 std::vector<std::uint32_t>& hopeless, const Context& context);
 
 }  // namespace atrium::plane

@@ -67,12 +67,22 @@ double automatic_distance(const VoxelGrid& grid) {
   return std::max(least_distance, distance_per_residual * median(residuals));
 }
 
+/// What is known of an order's voxels from one pass to the next.
+struct KnownVoxels {
+  std::optional<VoxelGrid> grid;
+  std::vector<std::uint32_t> hopeless;
+};
+
 /// The patches among the points that have no owner yet.
 std::vector<Patch> find_patches(const Cloud& cloud, const MortonOrder& order, const LocalSpacing& spacing,
-                                const std::vector<std::int32_t>& owner, const Settings& settings,
+                                const std::vector<std::int32_t>& owner, KnownVoxels& known, const Settings& settings,
                                 double cluster_distance, const Context& context) {
-  const VoxelGrid grid(order, settings.cell, settings.level, owner, settings.planarity, context);
-  const std::vector<Region> regions = grow_regions(grid, settings.limits, context);
+  if (known.grid)
+    known.grid->update(order, owner, settings.planarity, context);
+  else
+    known.grid.emplace(order, settings.cell, settings.level, owner, settings.planarity, context);
+  const VoxelGrid& grid = *known.grid;
+  const std::vector<Region> regions = grow_regions(grid, settings.limits, known.hopeless, context);
   std::vector<std::uint32_t> surface(grid.voxels().size(), VoxelGrid::none);
   for (std::uint32_t i = 0; i < regions.size(); ++i)
     for (const std::uint32_t v : regions[i].voxels) surface[v] = i;
@@ -99,15 +109,16 @@ class Shifted {
   }
 
   std::vector<Patch> find(const Cloud& cloud, const std::vector<std::int32_t>& owner, const Settings& settings,
-                          double cluster_distance, const Context& context) const {
+                          double cluster_distance, const Context& context) {
     std::vector<std::int32_t> moved(owner.size());
     for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = owner[place_[order_.index[i]]];
-    return find_patches(cloud, order_, spacing_, moved, settings, cluster_distance, context);
+    return find_patches(cloud, order_, spacing_, moved, known_, settings, cluster_distance, context);
   }
 
  private:
   MortonOrder order_;
   LocalSpacing spacing_;
+  KnownVoxels known_;
   std::vector<std::uint32_t> place_;  ///< in the unshifted order, of each point of the cloud
 };
 
@@ -140,6 +151,7 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
   const PointOctree octree(order.columns, order.codes, leaf_size, context);
   constexpr float any_normal = -2;
   const Tolerance tolerance{static_cast<float>(limits.distance), any_normal};
+  KnownVoxels known_voxels;
   std::vector<Patch> patches;
   const bool alternate = settings.level > least_level;  // finer voxels are thinner than walls
   std::optional<Shifted> shifted;
@@ -148,7 +160,7 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
     std::vector<Patch> found =
         shifted && pass % 2 == 1
             ? shifted->find(cloud, owner, settings, params.cluster_distance, context)
-            : find_patches(cloud, order, spacing, owner, settings, params.cluster_distance, context);
+            : find_patches(cloud, order, spacing, owner, known_voxels, settings, params.cluster_distance, context);
     context.progress((static_cast<double>(pass) + 1) / (static_cast<double>(params.passes) + 1));
     if (found.empty() && !alternate) break;
     const std::size_t known = patches.size();

@@ -56,6 +56,23 @@ VoxelGrid::VoxelGrid(const MortonOrder& order, double cell, std::uint32_t level,
   make_blocks();
 }
 
+void VoxelGrid::update(const MortonOrder& order, const std::vector<std::int32_t>& owner, const Planarity& planarity,
+                       const Context& context) {
+  context.parallel_for(
+      voxels_.size(),
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          Voxel& voxel = voxels_[i];
+          std::uint64_t free = 0;
+          for (std::uint32_t k = voxel.begin; k < voxel.end; ++k) free += owner[k] < 0 ? 1 : 0;
+          if (free == voxel.moments.count) continue;
+          voxel.planar = false;
+          measure(voxel, order, owner, planarity);
+        }
+      },
+      chunk_size);
+}
+
 void VoxelGrid::measure(Voxel& voxel, const MortonOrder& order, const std::vector<std::int32_t>& owner,
                         const Planarity& planarity) const {
   // About a point of the voxel first: the fit loses nothing to large coordinates.

@@ -34,6 +34,10 @@ class VoxelGrid {
   };
   VoxelGrid(const MortonOrder& order, double cell, std::uint32_t level, const std::vector<std::int32_t>& owner,
             const Planarity& planarity, const Context& context);
+  /// The same for other owners. No owned point may have become free: voxels with as many free points as before are left
+  /// as they are.
+  void update(const MortonOrder& order, const std::vector<std::int32_t>& owner, const Planarity& planarity,
+              const Context& context);
 
   const std::vector<Voxel>& voxels() const { return voxels_; }
   double edge() const { return edge_; }
