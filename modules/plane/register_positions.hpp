@@ -12,8 +12,8 @@ namespace atrium::plane {
 /// of the smaller one's rectangle) and are at most max_offset apart are taken for one surface. The shifts of the
 /// positions are the least squares solution for all these distances, weighted by the shared area, with Tukey's weights
 /// against pairs that are none (a cupboard before a wall), the first position held, in three rounds. Rotations stay as
-/// they are. Positions that share no surface with others do not move; along directions in which nothing holds a
-/// position it does not move either.
+/// they are. Positions that share no surface with others do not move, nor does a position along directions in which no
+/// surface holds it.
 ///
 /// If half of the shared area agrees within half the noise already, or the cloud does not say which position saw which
 /// point, nothing is changed. No random numbers. Source: plane-to-plane registration after K. Pathak et al., Fast
