@@ -83,6 +83,13 @@ class Finder {
              overlap(l, ceiling) >= least_large / 2;
     });
   }
+  /// Whether most of it lies under a level ceiling with room to stand.
+  bool has_ceiling_of_its_own(const Level& floor) const {
+    return std::any_of(levels_.begin(), levels_.end(), [&](const Level& l) {
+      return !l.up && !l.slanted && l.height - floor.height >= params_.min_clearance &&
+             overlap(floor, l) >= main_share * floor.area;
+    });
+  }
   bool room_above(const Level& floor) const {
     double top = floor.height;
     for (const auto& l : levels_)
@@ -146,8 +153,9 @@ class Finder {
         continue;
       const bool is_floor = l.up && main_floor != nullptr &&
                             (l.height <= ground + params_.max_step ||
-                             (main_ceiling != nullptr && l.area >= main_share * main_floor->area &&
-                              main_ceiling->height - l.height >= params_.min_clearance));
+                             (l.area >= main_share * main_floor->area &&
+                              ((main_ceiling != nullptr && main_ceiling->height - l.height >= params_.min_clearance) ||
+                               has_ceiling_of_its_own(l))));
       const bool is_ceiling = !l.up && (l.slanted ? l.top : l.height) >= ground + params_.min_clearance;
       if (!is_floor && !is_ceiling) continue;
       result.classes[l.primitive] = is_floor ? SurfaceClass::floor : SurfaceClass::ceiling;

@@ -268,6 +268,28 @@ TEST(Layout, ARoomWhoseCeilingWasSeenKeepsItBesideOneWhereItWasNot) {
   EXPECT_NEAR(layout.building.rooms[1].height, 2.45, 0.02);
 }
 
+TEST(Layout, ARampIsAFloor) {
+  Scene scene;
+  scene.add({0, 0, 0}, {4, 0, 0.2}, {0, 3, 0}, {-0.05, 0, 1}).ceiling(0, 0, 4, 3).walls(box(0, 0, 4, 3));
+  const auto layout = laid_out(scene.planes());
+  EXPECT_EQ(flaw(layout), "");
+  ASSERT_EQ(layout.building.rooms.size(), 1U);
+  EXPECT_NEAR(layout.building.rooms[0].volume, 12 * 2.4, 1e-2);
+}
+
+TEST(Layout, RoomsOfTwoLevelsBesideEachOther) {
+  // The floor of the second lies below the first one's ceiling, and above it.
+  for (const double step : {1.2, 2.8}) {
+    Scene scene;
+    add_box(scene, 0, 0, 4, 3);
+    add_box(scene, 4.12, 0, 8, 3, step, step + 2.5);
+    const auto layout = laid_out(scene.planes());
+    EXPECT_EQ(flaw(layout), "") << step;
+    ASSERT_EQ(layout.building.rooms.size(), 2U) << step;
+    for (const auto& room : layout.building.rooms) EXPECT_NEAR(room.height, 2.5, 1e-3) << step;
+  }
+}
+
 TEST(Layout, PlanesKilometresApartAreRefused) {
   const auto refused = [](const PlanePrimitives& planes) {
     const std::string error = error_of(planes);
