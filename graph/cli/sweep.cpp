@@ -2,17 +2,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "graph/cache/upkeep.hpp"
 #include "graph/cli/signals.hpp"
+#include "graph/cli/sweep_output.hpp"
 #include "graph/cli/verbs.hpp"
 #include "graph/pipeline/registry.hpp"
 #include "graph/run/console_progress.hpp"
 #include "graph/sweep/forecast.hpp"
 #include "graph/sweep/run.hpp"
-#include "graph/sweep/sheets.hpp"
 
 namespace atrium::cli {
 namespace {
@@ -30,31 +30,6 @@ struct Options {
   CacheChoice cache;
   std::string memory;
 };
-
-struct Loaded {
-  std::unique_ptr<SweepFile> sweep;
-  SweepLoad load;
-};
-
-void print(const std::vector<Diagnostic>& findings) {
-  for (const auto& finding : findings) fmt::print(stderr, "{}\n", to_string(finding));
-}
-
-/// Null sweep: it is invalid, and that has been said.
-Loaded load(const Options& options, Registry& registry) {
-  Loaded loaded;
-  Findings findings;
-  std::error_code ignored;
-  const fs::path path = fs::absolute(options.file, ignored).lexically_normal();
-  loaded.sweep = read_sweep(path, options.file, findings);
-  if (findings.error_count() == 0) loaded.load = plan_sweep(*loaded.sweep, to_overrides(options.settings), registry);
-  print(findings.warnings());
-  print(findings.errors());
-  print(loaded.load.warnings);
-  print(loaded.load.errors);
-  if (findings.error_count() > 0 || !loaded.load.errors.empty()) loaded.sweep.reset();
-  return loaded;
-}
 
 fs::path folder_of(const Options& options) {
   return options.out.empty() ? fs::path("runs") / fs::path(options.file).stem() : fs::path(options.out);
@@ -115,7 +90,7 @@ void print_plan_json(const SweepForecast& forecast, const SweepPlan& plan, const
 
 int plan(const Options& options) {
   Registry registry;
-  const Loaded loaded = load(options, registry);
+  const LoadedSweep loaded = load_sweep(options.file, to_overrides(options.settings), registry);
   if (!loaded.sweep) return invalid;
   const SweepPlan& plan = loaded.load.plan;
   const fs::path variants = fs::absolute(folder_of(options)) / "variants";
@@ -137,61 +112,16 @@ int plan(const Options& options) {
     table.rows.push_back({plan.variants[v].id, label_of(*loaded.sweep, plan.variants[v]), done[v] ? "yes" : "",
                           done[v] ? "" : shown(cost.variants[v])});
   fmt::print("{}", as_text(table));
+  std::fflush(stdout);  // before what goes to stderr, where both are the same file
   print_forecast(cost, plan, static_cast<std::size_t>(std::count(done.begin(), done.end(), true)));
   return ok;
-}
-
-/// What the metrics' table shows, and whether a metric's name was wrong.
-int print_results(const Options& options, const SweepFile& sweep, const SweepPlan& plan, const SweepResult& result) {
-  if (options.json) {
-    auto variants = nlohmann::ordered_json::array();
-    const Table table = full_table(sweep, plan, result.variants);
-    for (const auto& row : table.rows) {
-      nlohmann::ordered_json json;
-      for (std::size_t c = 0; c < row.size(); ++c) json[table.columns[c].title] = row[c];
-      variants.push_back(std::move(json));
-    }
-    fmt::print("{}\n", nlohmann::ordered_json{{"variants", std::move(variants)}}.dump(
-                           2, ' ', false, nlohmann::json::error_handler_t::replace));
-  } else {
-    fmt::print("{}", as_text(short_table(sweep, plan, result.variants)));
-  }
-  std::vector<std::string> unknown;
-  full_table(sweep, plan, result.variants, &unknown);
-  for (const auto& problem : unknown)
-    fmt::print(stderr, "atrium: error: {}\n  help: the names are in variants/*/result.json\n", problem);
-  std::size_t failures = 0;
-  std::size_t cancelled = 0;
-  for (const auto& variant : result.variants) {
-    const bool bad = variant.status == VariantStatus::failed || variant.status == VariantStatus::crashed;
-    failures += bad ? 1 : 0;
-    cancelled += !bad && variant.status != VariantStatus::ok ? 1 : 0;
-  }
-  if (!unknown.empty()) return failed;
-  if (failures == 0 && cancelled == 0) return ok;
-  return failures == result.variants.size() ? failed : some_failed;
-}
-
-void print_summary(const SweepResult& result, const fs::path& folder) {
-  std::map<VariantStatus, std::size_t> count;
-  std::size_t reused = 0;
-  for (const auto& variant : result.variants) {
-    ++count[variant.status];
-    reused += variant.reused ? 1 : 0;
-  }
-  std::string text = counted(count[VariantStatus::ok], "variant") + " done";
-  if (reused > 0) text += fmt::format(" ({} before)", reused);
-  for (const auto& [status, number] : count)
-    if (status != VariantStatus::ok) text += fmt::format(", {} {}", number, name_of(status));
-  if (result.known > 0) text += fmt::format("; {} of {} by the cache", result.known, counted(result.nodes, "node"));
-  fmt::print(stderr, "{} in {:.2f} s; see {}\n", text, result.wall, folder.string());
 }
 
 int run(const Options& options) {
   if (options.threads > 0)
     ::setenv("OMP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
   Registry registry;
-  const Loaded loaded = load(options, registry);
+  const LoadedSweep loaded = load_sweep(options.file, to_overrides(options.settings), registry);
   if (!loaded.sweep) return invalid;
   const CancelOnSignal signals;
   SweepOptions sweep_options;
@@ -213,20 +143,14 @@ int run(const Options& options) {
     ConsoleProgress progress(console_options(stderr, options.quiet));
     result = run_sweep(*loaded.sweep, loaded.load.plan, registry.build(), sweep_options, progress);
   } catch (const FolderError& error) {
-    fmt::print(stderr, "atrium: error: {}\n", error.what());
-    if (!error.help().empty()) fmt::print(stderr, "  help: {}\n", error.help());
-    return usage;
+    return refuse(error);
   }
-  const std::vector<std::string> problems =
-      signals.flag()->load() ? std::vector<std::string>{}
-                             : write_sheets(*loaded.sweep, loaded.load.plan, result.variants, registry, sweep_options);
-  for (const auto& problem : problems) fmt::print(stderr, "atrium: error: {}\n", problem);
-  for (const auto& problem : result.cache_problems)
-    if (!options.quiet) fmt::print(stderr, "warning: {}\n", problem);
-  if (!options.quiet) print_summary(result, sweep_options.out);
-  const int code = print_results(options, *loaded.sweep, loaded.load.plan, result);
-  if (signals.flag()->load()) return signals.exit_code();
-  return code == ok && !problems.empty() ? failed : code;
+  if (signals.flag()->load()) {
+    if (!options.quiet) print_summary(result, sweep_options.out);
+    print_sweep(*loaded.sweep, loaded.load.plan, result, options.json);
+    return signals.exit_code();
+  }
+  return finish_sweep(loaded, result, registry, sweep_options, options.json, options.quiet);
 }
 
 void add_common(CLI::App& verb, Options& options) {
@@ -247,7 +171,6 @@ void add_sweep(CLI::App& app, int& exit_code) {
   add_common(*planned, *options);
   add_cache_options(*planned, options->cache);
   planned->callback([options, &exit_code] { exit_code = plan(*options); });
-  add_sweep_work(*verb, exit_code);
   auto* ran = verb->add_subcommand("run", "Runs the variants that are not done; prints their table.");
   add_common(*ran, *options);
   ran->add_option("-j,--threads", options->threads, "threads; 1: one node after the other (default: one per core)")
@@ -269,6 +192,9 @@ void add_sweep(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0.0, 1e9))
       ->needs("--isolate");
   ran->callback([options, &exit_code] { exit_code = run(*options); });
+  add_sweep_submit(*verb, exit_code);
+  add_sweep_gather(*verb, exit_code);
+  add_sweep_work(*verb, exit_code);
 }
 
 }  // namespace atrium::cli

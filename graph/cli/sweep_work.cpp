@@ -9,8 +9,9 @@
 #include "graph/cli/signals.hpp"
 #include "graph/cli/verbs.hpp"
 #include "graph/pipeline/registry.hpp"
-#include "graph/run/run_folder.hpp"
+#include "graph/run/console_progress.hpp"
 #include "graph/sweep/isolated_run.hpp"
+#include "graph/sweep/submission.hpp"
 
 namespace atrium::cli {
 namespace {
@@ -62,6 +63,16 @@ int work_here(const Options& options) {
   return ok;
 }
 
+/// A task of a submission: each of its variants in a process of its own.
+int work(const Options& options) {
+  const CancelOnSignal signals;
+  Registry registry;
+  ConsoleProgress progress(console_options(stderr, false));
+  run_shard(fs::absolute(options.folder).lexically_normal(), options.tasks.front(), own_program(), options.threads,
+            registry.build(), signals.flag(), registry, progress);
+  return signals.flag()->load() ? signals.exit_code() : ok;
+}
+
 }  // namespace
 
 std::vector<std::string> worker_arguments(const CacheChoice& choice, const Cache* cache, bool no_hashes) {
@@ -91,7 +102,7 @@ void add_sweep_work(CLI::App& sweep, int& exit_code) {
   verb->add_option("--mem", options->memory, "memory");
   verb->add_flag("--no-hashes", options->no_hashes, "no content hashes of outputs");
   add_cache_options(*verb, options->cache);
-  verb->callback([options, &exit_code] { exit_code = work_here(*options); });
+  verb->callback([options, &exit_code] { exit_code = options->here ? work_here(*options) : work(*options); });
 }
 
 }  // namespace atrium::cli

@@ -18,6 +18,8 @@ void add_check(CLI::App& app, int& exit_code);
 void add_nodes(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
 void add_sweep(CLI::App& app, int& exit_code);
+void add_sweep_submit(CLI::App& sweep, int& exit_code);
+void add_sweep_gather(CLI::App& sweep, int& exit_code);
 void add_sweep_work(CLI::App& sweep, int& exit_code);
 void add_diff(CLI::App& app, int& exit_code);
 void add_graph(CLI::App& app, int& exit_code);

@@ -91,7 +91,7 @@ std::string portable(std::string message, const fs::path& folder) {
 
 double rounded(double seconds) { return std::round(seconds * 1e6) / 1e6; }
 
-/// Node types by name, and per variant [node, status, wall seconds, CPU seconds, peak memory].
+/// Node types by name, and per variant [node, status, wall seconds, CPU seconds, peak memory, 1 if the cache had it].
 class NodeNames {
  public:
   Json times_of(const RunRecord& run) {
@@ -99,7 +99,8 @@ class NodeNames {
     for (const auto& node : run.nodes) {
       const auto [known, fresh] = index_.try_emplace(node.path, names_.size());
       if (fresh) names_.push_back(node.path);
-      times.push_back({known->second, node.status, rounded(node.wall), rounded(node.cpu), node.peak_memory});
+      times.push_back(
+          {known->second, node.status, rounded(node.wall), rounded(node.cpu), node.peak_memory, node.known ? 1 : 0});
     }
     return times;
   }

@@ -19,7 +19,16 @@ RunRecord::Node read_node(const json& entry) {
                        entry.value("wall_seconds", 0.0),
                        entry.value("cpu_seconds", 0.0),
                        entry.value("peak_memory", std::uint64_t{0}),
-                       {}};
+                       {},
+                       entry.value("known", false)};
+  // manifest.json has both: what it took to find it in the cache, and what it took when it was computed.
+  const json use = entry.value("cache", json::object());
+  if (use.value("result", "") == "hit" && !use.contains("why")) {
+    node.known = true;
+    node.wall = use.value("computing_wall_seconds", node.wall);
+    node.cpu = use.value("computing_cpu_seconds", node.cpu);
+    node.peak_memory = use.value("computing_peak_memory", node.peak_memory);
+  }
   for (const auto& output : entry.value("outputs", json::array()))
     node.outputs.push_back({output.at("port").get<std::string>(), output.value("hash", "")});
   return node;

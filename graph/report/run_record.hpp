@@ -21,6 +21,7 @@ struct RunRecord {
     double wall = 0, cpu = 0;
     std::uint64_t peak_memory = 0;
     std::vector<Output> outputs;
+    bool known = false;  ///< to the cache: times and memory are those of when it was computed
   };
   struct File {
     std::string path;  ///< relative to the folder, "/" between its parts

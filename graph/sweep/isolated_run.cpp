@@ -76,9 +76,9 @@ std::vector<std::string> IsolatedRun::command(const std::vector<std::string>& na
   return command;
 }
 
-void IsolatedRun::hear(const std::string& process, const Json& event) {
+void IsolatedRun::hear(const std::string& process, std::size_t lane, const Json& event) {
   if (event.value("e", "") == "end") learned_ = std::max(learned_, event.at("peak_memory").get<std::uint64_t>());
-  joined_.hear(process, event);
+  joined_.hear(process, lane, event);
   if (options_.journal) options_.journal(process, event);
 }
 
@@ -116,7 +116,8 @@ void IsolatedRun::run_shared(const std::vector<std::pair<std::string, WorkerTask
     add(task.id);
   };
   WorkerPool pool(
-      pool_options(), [&](const PoolTask& task, const Json& event) { hear(tasks[task.id].first, event); }, on_end);
+      pool_options(), [&](const PoolTask& task, const Json& event) { hear(tasks[task.id].first, task.place, event); },
+      on_end);
   pool.on_tick = options_.on_tick;
   pool_pointer = &pool;
   for (std::size_t t = 0; t < tasks.size(); ++t) add(t);
@@ -127,7 +128,7 @@ void IsolatedRun::run_variants() {
   WorkerPool* pool_pointer = nullptr;
   const auto process = [&](const PoolTask& task) { return plan_.variants[groups_[task.id].front()].id; };
   WorkerPool pool(
-      pool_options(), [&](const PoolTask& task, const Json& event) { hear(process(task), event); },
+      pool_options(), [&](const PoolTask& task, const Json& event) { hear(process(task), task.place, event); },
       [&](const PoolTask& task, const PoolEnd& end) {
         const std::vector<std::size_t> variants = groups_[task.id];
         ended(*pool_pointer, variants, end);
@@ -151,6 +152,7 @@ void IsolatedRun::add_variants(WorkerPool& pool, std::vector<std::size_t> varian
   task.id = groups_.size();
   task.timed_by_node = variants.size() > 1;
   std::vector<std::string> ids;
+  ids.reserve(variants.size());
   for (const std::size_t v : variants) ids.push_back(plan_.variants[v].id);
   task.command = [this, ids](int threads) { return command(ids, threads); };
   task.memory = [this, v = variants.front()] { return memory_of(plan_.variants[v].nodes); };
@@ -183,7 +185,8 @@ void IsolatedRun::ended(WorkerPool& pool, const std::vector<std::size_t>& varian
 void IsolatedRun::settle(std::size_t v, const PoolEnd& end) {
   const SweepVariant& variant = plan_.variants[v];
   if (end.how == PoolEnd::How::done) return;  // cancelled
-  for (const auto& node : end.nodes) joined_.crashed(node, "crashed: " + end.reason);
+  for (const auto& node : end.nodes)
+    hear(variant.id, 0, {{"e", "crashed"}, {"node", node}, {"message", "crashed: " + end.reason}});
   std::vector<NodeRecord> records(plan_.merged.nodes.size());
   for (const std::size_t n : variant.nodes) {
     const PipelineNode& node = plan_.merged.nodes[n];

@@ -48,7 +48,7 @@ class IsolatedRun {
  private:
   PoolOptions pool_options() const;
   std::vector<std::string> command(const std::vector<std::string>& names, int threads) const;
-  void hear(const std::string& process, const nlohmann::ordered_json& event);
+  void hear(const std::string& process, std::size_t lane, const nlohmann::ordered_json& event);
   std::optional<std::uint64_t> memory_of(const std::vector<std::size_t>& nodes);
   void add_variants(WorkerPool& pool, std::vector<std::size_t> variants);
   void ended(WorkerPool& pool, const std::vector<std::size_t>& variants, const PoolEnd& end);

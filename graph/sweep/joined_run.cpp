@@ -12,6 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr int threads_of_a_lane = 100;  // so that the threads of two processes are told apart in the trace
+
 int rank_of(const NodeRecord& record) {
   if (record.status == NodeStatus::ok) return record.is_hit() ? 3 : 4;
   return record.status == NodeStatus::failed ? 2 : 1;
@@ -43,10 +45,11 @@ JoinedRun::JoinedRun(const SweepPlan& plan, const std::vector<bool>& wanted, dou
   progress_.planned(size);
 }
 
-void JoinedRun::hear(const std::string& process, const Json& event) {
+void JoinedRun::hear(const std::string& process, std::size_t lane, const Json& event) {
   const std::string kind = event.value("e", "");
   if (kind == "begin") shifts_[process] = event.at("time").get<double>() - started_;
-  if (kind == "finished" || kind == "described") take(read_record_json(event.at("record")), shifts_[process]);
+  if (kind == "finished" || kind == "described") take(read_record_json(event.at("record")), shifts_[process], lane);
+  if (kind == "crashed") crashed(event.at("node").get<std::string>(), event.at("message").get<std::string>());
   if (kind == "end") {
     const ProcessTotals totals = read_totals(event);
     totals_.cpu += totals.cpu;
@@ -64,13 +67,18 @@ void JoinedRun::hear(const std::string& process, const Json& event) {
   if (kind == "said") progress_.message(node, event.at("text").get<std::string>(), event.at("warning").get<bool>());
 }
 
-void JoinedRun::take(NodeRecord record, double shift) {
+void JoinedRun::take(NodeRecord record, double shift, std::size_t lane) {
+  record.thread += static_cast<int>(lane) * threads_of_a_lane;
   record.start += shift;
   record.hash_start += shift;
   last_[record.node] = record;
   const auto found = index_.find(record.node);
   if (found == index_.end()) return;
   const std::size_t n = found->second;
+  const std::string own = "variants/" + record.node.substr(0, record.node.find('/')) + "/";
+  for (auto& file : record.artefacts)  // each variant has its copy
+    if (file.path.starts_with(own))
+      file.path = (pipeline_.nodes[n].folder / file.path.substr(own.size())).generic_string();
   record.node = pipeline_.nodes[n].path;
   if (const int rank = rank_of(record); rank >= ranks_[n]) {
     ranks_[n] = rank;
@@ -93,7 +101,7 @@ void JoinedRun::crashed(const std::string& node, const std::string& message) {
   record.type = pipeline_.nodes[found->second].type->type;
   record.status = NodeStatus::failed;
   record.message = message;
-  take(std::move(record), 0);
+  take(std::move(record), 0, 0);
 }
 
 const NodeRecord* JoinedRun::record_of(const std::string& node) const {

@@ -15,10 +15,9 @@ class JoinedRun {
   /// `wanted[v]`: variant v is run. `started`: seconds since 1970.
   JoinedRun(const SweepPlan& plan, const std::vector<bool>& wanted, double started, ProgressSink& progress);
 
-  /// `process`: whose event it is, any name.
-  void hear(const std::string& process, const nlohmann::ordered_json& event);
-  /// A node that has no record because its process crashed: "ID/x/y".
-  void crashed(const std::string& node, const std::string& message);
+  /// `process`: whose event it is, any name; `lane`: where the trace shows it. Besides what EventSink says: crashed
+  /// (node, message), of a node that has no record because its process ended.
+  void hear(const std::string& process, std::size_t lane, const nlohmann::ordered_json& event);
   /// The last record that a process has told of a node, "ID/x/y"; null if none.
   const NodeRecord* record_of(const std::string& node) const;
 
@@ -27,7 +26,8 @@ class JoinedRun {
   RunResult run() const;
 
  private:
-  void take(NodeRecord record, double shift);
+  void take(NodeRecord record, double shift, std::size_t lane);
+  void crashed(const std::string& node, const std::string& message);
   void finish(std::size_t n, const NodeRecord& record);
 
   Pipeline pipeline_;

@@ -48,6 +48,7 @@ std::vector<WorkerTask> shared_beginnings(const SweepPlan& plan, const std::vect
     parts.back().nodes.push_back(address_in_variant(nodes[n]));
   }
   std::vector<WorkerTask> result;
+  result.reserve(tasks.size());
   for (auto& [component, task] : tasks) result.push_back(std::move(task));
   return result;
 }

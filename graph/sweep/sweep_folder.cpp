@@ -4,6 +4,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "graph/run/run_folder.hpp"
@@ -49,13 +51,20 @@ SweepFolder::SweepFolder(const fs::path& folder, const SweepFile& sweep) {
   if (!fs::exists(folder / sweep_mark) && !holds_only_unfinished(folder))
     throw FolderError(folder.string() + " is not empty and is not the folder of a sweep",
                       "choose another folder with --out, or empty it");
+  lock(folder, LOCK_EX);
+  write_file(folder / sweep_mark, sweep_json(sweep));
+}
+
+SweepFolder::SweepFolder(const fs::path& folder) { lock(folder, LOCK_SH); }
+
+// A file system that has no locks is no reason not to run.
+void SweepFolder::lock(const fs::path& folder, int kind) {
   lock_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) == 0) {
-    write_file(folder / sweep_mark, sweep_json(sweep));
-    return;
-  }
-  if (lock_ >= 0) ::close(lock_);
-  throw FolderError("another sweep is writing into " + folder.string(), "choose another folder with --out");
+  if (lock_ < 0) throw FolderError("cannot open the folder " + folder.string() + ": " + std::strerror(errno));
+  if (::flock(lock_, kind | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(lock_);
+  throw FolderError("another sweep is writing into " + folder.string(),
+                    "wait for it, or choose another folder with --out");
 }
 
 SweepFolder::~SweepFolder() { ::close(lock_); }

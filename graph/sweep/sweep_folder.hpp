@@ -5,16 +5,20 @@
 
 namespace atrium {
 
-/// The sweep's folder, locked against a second run at the same time. Refused if it holds anything but a sweep. Throws
-/// FolderError.
+/// The sweep's folder, locked against a second run at the same time.
 class SweepFolder {
  public:
+  /// Makes it. Refused if it holds anything but a sweep. Throws FolderError.
   SweepFolder(const std::filesystem::path& folder, const SweepFile& sweep);
+  /// For one of several processes that work on it. Throws FolderError.
+  explicit SweepFolder(const std::filesystem::path& folder);
   ~SweepFolder();
   SweepFolder(const SweepFolder&) = delete;
   SweepFolder& operator=(const SweepFolder&) = delete;
 
  private:
+  void lock(const std::filesystem::path& folder, int kind);
+
   int lock_ = -1;
 };
 

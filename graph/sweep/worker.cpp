@@ -21,33 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-VariantNote read_note(const fs::path& folder) {
-  const fs::path file = folder / "variant.json";
-  std::ifstream stream(file);
-  const Json json = Json::parse(stream, nullptr, false);
-  try {
-    VariantNote note{{json.at("variant").get<std::string>(), {}}, {}};
-    for (const auto& [axis, choice] : json.at("choices").items())
-      note.name.choices.emplace_back(axis, choice.get<std::string>());
-    for (const auto& [node, id] : json.at("pictures_show").items())
-      note.stamps.emplace_back(node, id.get<std::string>());
-    return note;
-  } catch (const Json::exception&) {
-    throw Error(file.string() + " cannot be read",
-                "it is written by `atrium sweep run --isolate` and `atrium sweep submit`");
-  }
-}
-
-Pipeline load_variant(const fs::path& sweep, const std::string& id, Registry& registry) {
-  const fs::path file = sweep / "variants" / id / "resolved.yaml";
-  LoadResult loaded = load_pipeline(file, {}, registry);
-  if (!loaded.errors.empty()) throw Error(to_string(loaded.errors.front()));
-  if (id_of(loaded.pipeline) != id)
-    throw Error(file.string() + " is not that of the variant any more",
-                "begin the sweep again: what is done is not done again");
-  return std::move(loaded.pipeline);
-}
-
 /// The nodes that are to be run: what the task names and what that reads, without what is to be skipped and what
 /// depends on it.
 std::vector<bool> wanted_nodes(const WorkerTask& task, const SweepPlan& plan, const std::vector<std::string>& skipped) {
@@ -95,6 +68,33 @@ class Stamps {
 };
 
 }  // namespace
+
+VariantNote read_note(const fs::path& folder) {
+  const fs::path file = folder / "variant.json";
+  std::ifstream stream(file);
+  const Json json = Json::parse(stream, nullptr, false);
+  try {
+    VariantNote note{{json.at("variant").get<std::string>(), {}}, {}};
+    for (const auto& [axis, choice] : json.at("choices").items())
+      note.name.choices.emplace_back(axis, choice.get<std::string>());
+    for (const auto& [node, id] : json.at("pictures_show").items())
+      note.stamps.emplace_back(node, id.get<std::string>());
+    return note;
+  } catch (const Json::exception&) {
+    throw Error(file.string() + " cannot be read",
+                "it is written by `atrium sweep run --isolate` and `atrium sweep submit`");
+  }
+}
+
+Pipeline load_variant(const fs::path& sweep, const std::string& id, Registry& registry) {
+  const fs::path file = sweep / "variants" / id / "resolved.yaml";
+  LoadResult loaded = load_pipeline(file, {}, registry);
+  if (!loaded.errors.empty()) throw Error(to_string(loaded.errors.front()));
+  if (id_of(loaded.pipeline) != id)
+    throw Error(file.string() + " is not that of the variant any more",
+                "begin the sweep again: what is done is not done again");
+  return std::move(loaded.pipeline);
+}
 
 std::string task_text(const WorkerTask& task) {
   std::string text;

@@ -25,6 +25,11 @@ struct VariantNote {
   std::vector<std::pair<std::string, std::string>> stamps;
 };
 void write_note(const std::filesystem::path& folder, const VariantNote& note);
+/// Throws Error.
+VariantNote read_note(const std::filesystem::path& folder);
+
+/// A variant's pipeline from its folder. Throws Error if it is not that of the variant.
+Pipeline load_variant(const std::filesystem::path& sweep, const std::string& id, Registry& registry);
 
 struct WorkerOptions {
   std::filesystem::path sweep;       ///< the sweep's folder

@@ -24,12 +24,13 @@ constexpr int tick_milliseconds = 20;
 /// "x/y" of "ID/x/y".
 std::string address(const std::string& node) { return node.substr(node.find('/') + 1); }
 
-/// The first error that a worker printed before it began.
+/// The error that a worker ended with.
 std::string said(const std::string& printed) {
-  constexpr std::string_view mark = "error: ";
-  const auto at = printed.find(mark);
-  const std::string text = at == std::string::npos ? printed : printed.substr(at + mark.size());
-  return text.substr(0, text.find('\n'));
+  constexpr std::string_view mark = "atrium: error: ";
+  const auto at = printed.rfind(mark);
+  if (at == std::string::npos) return {};
+  const std::string text = printed.substr(at + mark.size());
+  return ": " + text.substr(0, text.find('\n'));
 }
 
 }  // namespace
@@ -39,7 +40,7 @@ struct WorkerPool::Worker {
   WorkerProcess process;
   double start, clock;
   std::set<std::string> nodes = {};  ///< that run
-  bool begun = false, whole = false, killed_for_others = false;
+  bool whole = false, killed_for_others = false;
   std::string killed = {};                     ///< why, if we did
   std::optional<std::uint64_t> expected = {};  ///< memory; nothing: it is to be alone
   std::uint64_t memory = 0;
@@ -116,6 +117,9 @@ bool WorkerPool::fits(const PoolTask& task) const {
 
 void WorkerPool::start(PoolTask task) {
   const auto places = std::min(static_cast<std::size_t>(options_.threads), running_.size() + waiting_.size() + 1);
+  task.place = 0;
+  const auto taken = [&](const auto& worker) { return worker->task.place == task.place; };
+  while (std::any_of(running_.begin(), running_.end(), taken)) ++task.place;
   const auto expected = task.alone ? std::nullopt : task.memory();
   running_.push_back(
       std::make_unique<Worker>(std::move(task), std::max(1, options_.threads / static_cast<int>(places))));
@@ -135,7 +139,6 @@ void WorkerPool::read(Worker& worker) {
     const Json event = Json::parse(line, nullptr, false);
     if (!event.is_object()) continue;
     const std::string kind = event.value("e", "");
-    worker.begun = worker.begun || kind == "begin";
     worker.whole = worker.whole || kind == "end";
     if (kind == "started") worker.nodes.insert(event.value("node", ""));
     if (kind == "finished") {
@@ -174,7 +177,7 @@ void WorkerPool::end(Worker& worker) {
   read(worker);  // the rest of what it said
   const int status = *worker.process.ended();
   const bool done = worker.whole && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  if (!done) end_orphans(processes());
+  end_orphans(processes());
   if (worker.killed_for_others && !done && cancelled_at_ == 0) {
     worker.task.alone = true;
     waiting_.push_back(std::move(worker.task));
@@ -185,7 +188,7 @@ void WorkerPool::end(Worker& worker) {
   end.printed = worker.process.printed();
   end.nodes.assign(worker.nodes.begin(), worker.nodes.end());
   end.reason = !worker.killed.empty() ? worker.killed : how_ended(status);
-  if (!worker.begun && worker.killed.empty()) end.reason += ": " + said(end.printed);
+  if (worker.killed.empty() && WIFEXITED(status)) end.reason += said(end.printed);
   if (worker.killed.empty() && WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
     end.reason += ", perhaps by the system for lack of memory";
   std::vector<std::string> names;

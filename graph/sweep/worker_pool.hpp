@@ -27,6 +27,7 @@ struct PoolTask {
   /// What it will probably need, bytes; nothing: not known, it runs alone.
   std::function<std::optional<std::uint64_t>()> memory = [] { return std::nullopt; };
   bool timed_by_node = false;  ///< the time limit is for each node of it, not for all of it
+  std::size_t place = 0;       ///< set when it is started: no two at the same time have the same
   bool alone = false;          ///< it needed more memory than there was beside others
 };
 

@@ -64,6 +64,7 @@ ssize_t read_some(int& file, char* data, std::size_t size) {
 
 WorkerProcess::WorkerProcess(const std::vector<std::string>& arguments) {
   std::vector<char*> list;
+  list.reserve(arguments.size() + 1);
   for (const auto& argument : arguments) list.push_back(const_cast<char*>(argument.c_str()));
   list.push_back(nullptr);
   const Pipe events = make_pipe();

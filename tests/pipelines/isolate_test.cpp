@@ -1,111 +1,33 @@
 // `atrium sweep run --isolate`: what happens to a process costs its variant only, and changes nothing else.
 #include <gtest/gtest.h>
+#include <sys/mount.h>
 
-#include <algorithm>
 #include <csignal>
-#include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
 
-#include "tests/support/process.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/pipelines/sweep_folder_test.hpp"
 
 namespace atrium::test {
 namespace {
 
-using nlohmann::json;
-namespace fs = std::filesystem;
-
-class Isolated : public testing::Test {
+class Isolated : public SweepFolderTest {
  protected:
-  Isolated() {
-    write_text(folder / "base.yaml", R"(atrium: 1
-summary: A beginning that variants share, and what they do with it.
-nodes:
-  room: {type: synth.room}
-  scan: {type: synth.scan, in: {scene: room.scene}, params: {points: 20000}}
-  look: {type: render.snapshot, in: {cloud: scan.cloud}, params: {path: look.png, width: 80, height: 60}}
-  first: {type: trial.fault, in: {after: scan.cloud}, params: {points: 1000, work: 0.02 s}}
-  second: {type: trial.fault, in: {after: first.cloud}, params: {number: 2}}
-  random: {type: trial.step, in: {after: first.sum}, params: {value: 0}}
-  write: {type: trial.write, in: {value: second.sum}, params: {path: sub/value.txt}}
-  cloud: {type: io.write_cloud, in: {cloud: second.cloud}, params: {path: cloud.ply}}
-outputs: {sum: second.sum, random: random.value, text: random.text}
-)");
-  }
-  void sweep(const std::string& rest) { write_text(folder / "s.yaml", "atrium: 1\nsweep: base.yaml\n" + rest); }
-  ProcessResult atrium(std::vector<std::string> arguments, ProcessOptions options = {}) {
-    arguments.insert(arguments.begin(), {ATRIUM_PROGRAM, "sweep", "run", "s.yaml"});
-    options.folder = folder.path();
-    options.environment.push_back("ATRIUM_PLUGIN_PATH=" ATRIUM_TRIAL_PLUGIN);
-    return run_process(arguments, options);
-  }
   ProcessResult isolated(const std::string& out, std::vector<std::string> more = {}, ProcessOptions options = {}) {
-    more.insert(more.begin(), {"--isolate", "--out", out, "--cache", "cache-" + out});
+    more.insert(more.begin(), {"run", "s.yaml", "--isolate", "--out", out, "--cache", "cache-" + out});
     return atrium(std::move(more), std::move(options));
   }
-  /// By label.
-  std::map<std::string, json> results(const std::string& out) {
-    std::map<std::string, json> found;
-    for (const auto& variant : fs::directory_iterator(folder / out / "variants")) {
-      const fs::path file = variant.path() / "result.json";
-      if (!fs::exists(file)) continue;
-      json result = json::parse(read_text(file));
-      found[result.at("variant")] = result;
-    }
-    return found;
-  }
-  /// All that a sweep leaves but times, memory and what is said of the cache: by file.
-  std::map<std::string, std::string> left(const std::string& out) {
-    std::map<std::string, std::string> found;
-    for (const auto& entry : fs::recursive_directory_iterator(folder / out)) {
-      if (!entry.is_regular_file()) continue;
-      const std::string name = entry.path().lexically_relative(folder / out).string();
-      const std::string file = entry.path().filename().string();
-      if (file == "variant.json" || file == "trace.json" || file == "worker.log") continue;
-      found[name] = file == "sheet.png" ? "" : read_text(entry.path());  // its stamp names the folder
-      if (file != "result.json" && file != "manifest.json") continue;
-      json all = json::parse(found[name]);
-      for (const char* key :
-           {"started", "wall_seconds", "cpu_seconds", "peak_memory", "hash_seconds", "cache", "threads"})
-        all.erase(key);
-      for (auto& node : all["nodes"])
-        for (const char* key : {"wall_seconds", "cpu_seconds", "peak_memory", "known", "cache"}) node.erase(key);
-      found[name] = all.dump(1);
-    }
-    return found;
-  }
-  static void expect_same(const std::map<std::string, std::string>& left,
-                          const std::map<std::string, std::string>& right) {
-    EXPECT_EQ(left.size(), right.size());
-    for (const auto& [file, text] : right)
-      if (left.contains(file)) EXPECT_EQ(left.at(file), text) << file;
-  }
-  /// Processes that have the test's folder in their command line.
-  std::size_t processes() {
-    std::size_t found = 0;
-    std::error_code failure;
-    for (fs::directory_iterator at("/proc", failure), end; !failure && at != end; at.increment(failure)) {
-      std::ifstream file(at->path() / "cmdline");
-      const std::string line((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-      found += line.find(folder.path().string()) != std::string::npos ? 1 : 0;
-    }
-    return found;
-  }
-
-  TemporaryFolder folder;
 };
 
 TEST_F(Isolated, LeavesTheSameBytes) {
   sweep(
       "grid: {second.number: [2, 3, 4]}\nseeds: [1, 2]\n"
       "metrics: {sum: sum, random: random, text: text}\npictures: {sheet.png: look.png}\n");
-  ASSERT_EQ(atrium({"--out", "together", "--no-cache", "-q"}).exit_code, 0);
+  ASSERT_EQ(atrium({"run", "s.yaml", "--out", "together", "--no-cache", "-q"}).exit_code, 0);
   const auto expected = left("together");
   EXPECT_GT(expected.size(), 6U * 5U);
   for (const auto& [out, more] : std::map<std::string, std::vector<std::string>>{
            {"one", {"-j", "1"}}, {"three", {"-j", "3"}}, {"none", {"--no-cache"}}}) {
     auto arguments = more;
+    arguments.insert(arguments.begin(), {"run", "s.yaml"});
     arguments.insert(arguments.end(), {"--isolate", "--out", out, "-q", "--cache", "cache-" + out});
     const auto result = atrium(arguments);
     ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -115,8 +37,8 @@ TEST_F(Isolated, LeavesTheSameBytes) {
   }
   // What one way of running has done, the other takes as done, and nothing is left to do; nor if the cache has all.
   EXPECT_NE(isolated("together").err.find("(6 before)"), std::string::npos);
-  EXPECT_NE(atrium({"--out", "one"}).err.find("(6 before)"), std::string::npos);
-  const auto known = atrium({"--isolate", "--out", "known", "--cache", "cache-three"});
+  EXPECT_NE(atrium({"run", "s.yaml", "--out", "one"}).err.find("(6 before)"), std::string::npos);
+  const auto known = atrium({"run", "s.yaml", "--isolate", "--out", "known", "--cache", "cache-three"});
   expect_same(left("known"), expected);
   EXPECT_EQ(known.err.find("0 of"), std::string::npos) << known.err;
 }
@@ -166,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(All, IsolatedCrash,
                          testing::Values(Crash{"segv", {}, "signal 11 (SIGSEGV)"},
                                          Crash{"abort", {"-j", "1"}, "signal 6 (SIGABRT)"},
                                          Crash{"exit", {}, "exit code 7"},
-                                         Crash{"hang", {"--timeout", "1.5"}, "ended after 1.5 s (--timeout)"}),
+                                         Crash{"hang", {"--timeout", "4"}, "ended after 4 s (--timeout)"}),
                          [](const auto& crash) { return crash.param.name; });
 
 TEST_F(Isolated, AVariantThatNeedsTooMuchMemoryIsEnded) {
@@ -256,6 +178,30 @@ TEST_F(Isolated, ItsProcessesEndWithIt) {
   const auto result = isolated("out");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("3 variants done (2 before)"), std::string::npos) << result.err;
+}
+
+TEST_F(Isolated, AFullDiskIsSaidAndLeavesAFolderThatGoesOn) {
+  sweep("grid: {second.number: [2, 3, 4]}\nmetrics: {sum: sum}\n");
+  ASSERT_EQ(atrium({"run", "s.yaml", "--out", "undisturbed"}).exit_code, 0);
+  fs::create_directories(folder / "small");
+  if (::mount("none", (folder / "small").c_str(), "tmpfs", 0, "size=64k") != 0)
+    GTEST_SKIP() << "a small file system can be mounted by root only";
+  for (const char* out : {"small/together", "small/isolated"}) {
+    std::vector<std::string> run{"run", "s.yaml", "--out", out};
+    if (out == std::string("small/isolated")) run.insert(run.end(), {"--isolate", "--cache", "cache"});
+    ::mount("none", (folder / "small").c_str(), "tmpfs", MS_REMOUNT, "size=64k");
+    const auto full = atrium(run);
+    EXPECT_TRUE(full.exit_code == 1 || full.exit_code == 4) << full.exit_code;
+    EXPECT_NE((full.out + full.err).find("No space left on device"), std::string::npos) << full.out << full.err;
+    ::mount("none", (folder / "small").c_str(), "tmpfs", MS_REMOUNT, "size=50M");
+    EXPECT_EQ(atrium(run).exit_code, 0);
+    auto found = left(out);
+    auto expected = left("undisturbed");
+    for (auto* files : {&found, &expected}) files->erase("manifest.json");  // of what was left to do
+    expect_same(found, expected);
+    fs::remove_all(folder / out);
+  }
+  ::umount((folder / "small").c_str());
 }
 
 }  // namespace

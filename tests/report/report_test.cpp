@@ -168,6 +168,41 @@ outputs: {faces: faces.metrics}
   expect_works_in_browser(folder / "run/report.html", true);
 }
 
+TEST_F(Report, NodesThatTheCacheKnewHaveTheTimesOfWhenTheyWereComputed) {
+  write_text(folder / "one.yaml", R"(atrium: 1
+nodes:
+  room: {type: synth.room}
+  scan: {type: synth.scan, in: {scene: room.scene}, params: {points: 20000}}
+outputs: {cloud: scan.cloud}
+)");
+  write_text(folder / "s.yaml", "atrium: 1\nsweep: one.yaml\ngrid: {scan.points: [10000, 20000]}\n");
+  const auto nodes = [&](const std::string& verb, const std::string& out) {
+    const std::vector<std::string> run = verb == "run" ? std::vector<std::string>{"run", "one.yaml"}
+                                                       : std::vector<std::string>{"sweep", "run", "s.yaml"};
+    std::vector<std::string> command = run;
+    command.insert(command.end(), {"--out", out, "--quiet", "--cache", "cache-" + verb});
+    EXPECT_EQ(atrium(command, folder.path()).exit_code, 0);
+    EXPECT_EQ(atrium({"report", out}, folder.path()).exit_code, 0);
+    json all = json::array();
+    const json data = data_of(read_text(folder / out / "report.html"));
+    for (const auto& variant : data.at("variants"))
+      for (const auto& node : variant.at("nodes")) all.push_back(node);
+    return all;
+  };
+  for (const std::string verb : {"run", "sweep"}) {
+    const json cold = nodes(verb, verb + "-cold");
+    const json warm = nodes(verb, verb + "-warm");
+    ASSERT_EQ(cold.size(), verb == "run" ? 2U : 4U);
+    ASSERT_EQ(warm.size(), cold.size());
+    for (std::size_t i = 0; i < cold.size(); ++i) {
+      EXPECT_EQ(cold[i][5], 0);
+      EXPECT_EQ(warm[i][5], 1);
+      EXPECT_EQ(warm[i][2], cold[i][2]);
+      EXPECT_EQ(warm[i][4], cold[i][4]);
+    }
+  }
+}
+
 TEST_F(Report, OfASweepWithoutItsTableShowsWhatIsDone) {
   make_sweep(folder.path());
   fs::remove(folder / "out/table.csv");

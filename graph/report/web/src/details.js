@@ -23,7 +23,7 @@ export function makeDetails(data, getViewer) {
         h('div', {}, image, table('Varied', data.axes.map((axis) => [axis.title, labelAt(axis, variant)])),
           table('Parameters that differ', data.parameters.filter((p) => p.of[variant.index] >= 0).map((p) => [h('code', {}, p.address), p.values[p.of[variant.index]]]))),
         h('div', {}, table('Metrics', data.metrics.map((metric, i) => [metric.name, `${shown(variant.cells[i], metric.digits)} ${metric.unit}`])),
-          table('Nodes', variant.nodes.map(([node, status, wall, cpu]) => [data.nodes[node], status === 'ok' ? `${seconds(cpu)} CPU, ${seconds(wall)}` : status]))))));
+          table('Nodes', variant.nodes.map(([node, status, wall, cpu, , known]) => [data.nodes[node], status === 'ok' ? `${seconds(cpu)} CPU, ${seconds(wall)}${known ? ', in the cache' : ''}` : status]))))));
     dialog.showModal();
     dialog.scrollTop = 0;
   };

@@ -18,7 +18,7 @@ export function makeTimes(data, root, actions) {
   const rows = h('div', { class: 'bars', role: 'table', 'aria-label': 'Time per node' });
   const more = h('button', { type: 'button', class: 'quiet', onclick: () => { limit += 200; render(); } });
   root.append(h('div', { class: 'tools' }, select.element), legend,
-              h('p', { class: 'hint' }, 'Means over the seeds. A node that several variants share was run once and is counted in each. Wall times are of nodes side by side.'), rows, more);
+              h('p', { class: 'hint' }, 'Means over the seeds. A node that several variants share was run once and is counted in each; of one that the cache knew it is what it took when it was computed. Wall times are of nodes side by side.'), rows, more);
 
   const place = { wall: 2, cpu: 3, memory: 4 };
   const amount = (variant, node) => variant.nodes.find((n) => n[0] === node)?.[place[measure]] ?? 0;

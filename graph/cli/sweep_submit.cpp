@@ -1,0 +1,145 @@
+// atrium sweep submit|gather: a sweep on many machines, by an engine that users have.
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+
+#include "graph/cache/upkeep.hpp"
+#include "graph/cli/sweep_output.hpp"
+#include "graph/sweep/submission.hpp"
+
+namespace atrium::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string file, out, engine, memory;
+  std::vector<std::string> settings, engine_options;
+  std::size_t shards = 0;
+  int threads = 0;
+  double timeout = 0;
+  bool dry = false, no_hashes = false, json = false, quiet = false;
+  CacheChoice cache;
+};
+
+/// Whether the shell finds a program.
+bool is_installed(const std::string& name) {
+  return std::system(fmt::format("command -v {} >/dev/null 2>&1", name).c_str()) == 0;  // NOLINT(concurrency-mt-unsafe)
+}
+
+void check_engine(const std::string& engine) {
+  const std::string program = engine == "slurm" ? "sbatch" : "parallel";
+  if (!is_installed(program))
+    throw Error(fmt::format("there is no program '{}'", program),
+                fmt::format("apt-get install {}; or look at it with --dry-run",
+                            engine == "slurm" ? "slurm-client" : "parallel"));
+}
+
+int submit(const Options& options) {
+  Registry registry;
+  const LoadedSweep loaded = load_sweep(options.file, to_overrides(options.settings), registry);
+  if (!loaded.sweep) return invalid;
+  if (!options.dry) check_engine(options.engine);
+  const auto cache = open_cache(options.cache);
+  SubmitOptions submit_options;
+  submit_options.out = fs::absolute(options.out).lexically_normal();
+  submit_options.program = own_program();
+  submit_options.threads = options.threads;
+  submit_options.shards = options.shards;
+  submit_options.engine_options = options.engine_options;
+  submit_options.dry = options.dry;
+  submit_options.cache = cache.get();
+  Submission submission;
+  submission.sweep = fs::absolute(options.file).lexically_normal();
+  submission.settings = options.settings;
+  submission.folder = fs::current_path();
+  submission.build = registry.build();
+  submission.engine = options.engine;
+  submission.arguments = worker_arguments(options.cache, cache.get(), options.no_hashes);
+  submission.cache = cache == nullptr ? "" : cache->places().folder.string();
+  if (!options.memory.empty()) submission.memory = read_size(options.memory);
+  submission.timeout = options.timeout;
+  SubmitScripts scripts;
+  try {
+    scripts = prepare_submission(*loaded.sweep, loaded.load.plan, submission, submit_options);
+  } catch (const FolderError& error) {
+    return refuse(error);
+  }
+  if (scripts.variants == 0) {
+    fmt::print(stderr, "all variants are done already: `atrium sweep run` prints their table\n");
+    return ok;
+  }
+  if (options.dry) {
+    if (!scripts.job.empty()) fmt::print("# {}\n{}\n", scripts.job_file.string(), scripts.job);
+    fmt::print("# {}\n{}", scripts.submit_file.string(), scripts.submit);
+    return ok;
+  }
+  const int status =
+      std::system(fmt::format("sh '{}'", scripts.submit_file.string()).c_str());  // NOLINT(concurrency-mt-unsafe)
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  // GNU parallel returns how many jobs failed: it is for `gather` to say what became of the variants.
+  if (code != 0 && (options.engine == "slurm" || code > 100)) {
+    fmt::print(stderr, "atrium: error: {} ended with exit code {}\n", scripts.submit_file.string(), code);
+    return failed;
+  }
+  fmt::print(stderr, "{} {}; their table: atrium sweep gather {}\n", counted(scripts.variants, "variant"),
+             options.engine == "slurm" ? "submitted" : "run", options.out);
+  return ok;
+}
+
+int gather(const Options& options) {
+  const fs::path out = fs::absolute(options.out).lexically_normal();
+  const Submission submission = read_submission(out);
+  Registry registry;
+  auto settings = to_overrides(submission.settings);
+  for (auto& setting : settings) setting.folder = submission.folder;
+  const LoadedSweep loaded = load_sweep(submission.sweep.string(), settings, registry);
+  if (!loaded.sweep) return invalid;
+  const SweepResult result = atrium::gather(out, submission, *loaded.sweep, loaded.load.plan);
+  SweepOptions sweep_options;
+  sweep_options.out = out;
+  return finish_sweep(loaded, result, registry, sweep_options, options.json, options.quiet);
+}
+
+}  // namespace
+
+void add_sweep_submit(CLI::App& sweep, int& exit_code) {
+  auto* verb = sweep.add_subcommand("submit",
+                                    "Hands the variants that are not done to Slurm or GNU parallel, what several share "
+                                    "first; see share/doc/farm.md.");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("FILE", options->file, "the sweep file")->required();
+  verb->add_option("ENGINE_OPTIONS", options->engine_options,
+                   "after --, passed on to sbatch or parallel: -- --partition=long --time=2:00:00");
+  add_settings(*verb, options->settings);
+  verb->add_option("--out", options->out, "the sweep's folder, on a file system that all machines have")->required();
+  verb->add_option("--engine", options->engine,
+                   "slurm: two job arrays (sbatch); parallel: GNU parallel, here or with --sshlogin")
+      ->required()
+      ->check(CLI::IsMember({"slurm", "parallel"}));
+  verb->add_option("--shards", options->shards, "in so many jobs (default: one per variant, at most 100)")
+      ->check(CLI::Range(1, 100'000));
+  verb->add_flag("--dry-run", options->dry, "only print what would be called");
+  verb->add_option("-j,--threads", options->threads,
+                   "threads of each shard (default: what Slurm gives it; with parallel 1)")
+      ->check(CLI::Range(1, 1024));
+  verb->add_option("--mem", options->memory, "memory that a shard may hold: 8 GB; a variant that needs more is ended");
+  verb->add_option("--timeout", options->timeout, "seconds after which a variant is ended; 0: none")
+      ->check(CLI::Range(0.0, 1e9));
+  verb->add_flag("--no-hashes", options->no_hashes, "leave out the content hashes of outputs");
+  add_cache_options(*verb, options->cache);
+  verb->callback([options, &exit_code] { exit_code = submit(*options); });
+}
+
+void add_sweep_gather(CLI::App& sweep, int& exit_code) {
+  auto* verb = sweep.add_subcommand(
+      "gather", "Joins what the shards of `submit` have left so far, as `run` would have left it; prints the table.");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("DIR", options->out, "the sweep's folder")->required();
+  verb->add_flag("-q,--quiet", options->quiet, "errors only on stderr");
+  verb->add_flag("--json", options->json, "results as JSON on stdout");
+  verb->callback([options, &exit_code] { exit_code = gather(*options); });
+}
+
+}  // namespace atrium::cli

@@ -1,0 +1,219 @@
+#include "graph/sweep/submission.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "graph/run/run_folder.hpp"
+#include "graph/sweep/isolated_run.hpp"
+#include "graph/sweep/merge.hpp"
+#include "graph/sweep/recorder.hpp"
+#include "graph/sweep/shared_beginnings.hpp"
+#include "graph/sweep/sweep_folder.hpp"
+
+namespace atrium {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+constexpr std::size_t usual_shards = 100;
+constexpr std::string_view record_name = "submission.json";
+
+/// Quoted for a shell, where it needs that.
+std::string quoted(const std::string& text) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
+  return result + "'";
+}
+
+std::string quoted(const std::vector<std::string>& words) {
+  std::string result;
+  for (const auto& word : words) result += " " + quoted(word);
+  return result;
+}
+
+/// The tasks in so many, the parts of one variant together.
+std::vector<WorkerTask> packed(const std::vector<WorkerTask>& tasks, std::size_t most) {
+  std::vector<WorkerTask> result(std::min(tasks.size(), most));
+  for (std::size_t t = 0; t < tasks.size(); ++t) {
+    auto& parts = result[t % most].parts;
+    for (const auto& part : tasks[t].parts) {
+      const auto same = std::find_if(parts.begin(), parts.end(), [&](const auto& p) { return p.id == part.id; });
+      if (same == parts.end())
+        parts.push_back(part);
+      else
+        same->nodes.insert(same->nodes.end(), part.nodes.begin(), part.nodes.end());
+    }
+  }
+  return result;
+}
+
+/// Every so-manieth variant: those near each other often take the same time.
+std::vector<WorkerTask> dealt(const SweepPlan& plan, const std::vector<bool>& wanted, std::size_t shards) {
+  std::vector<WorkerTask> result(shards);
+  std::size_t next = 0;
+  for (std::size_t v = 0; v < wanted.size(); ++v)
+    if (wanted[v]) result[next++ % shards].parts.push_back({plan.variants[v].id, {}});
+  return result;
+}
+
+struct Call {
+  const Submission& submission;
+  const SubmitOptions& options;
+  fs::path work;  ///< of this submission
+};
+
+std::string work_command(const Call& call, const std::string& task, const std::string& threads) {
+  const char* plugins = std::getenv("ATRIUM_PLUGIN_PATH");  // NOLINT(concurrency-mt-unsafe)
+  return fmt::format("cd {} && {}exec {} sweep work {} {} -j {}", quoted(call.submission.folder.string()),
+                     plugins == nullptr ? "" : fmt::format("export ATRIUM_PLUGIN_PATH={} && ", quoted(plugins)),
+                     quoted(call.options.program), quoted(call.options.out.string()), task, threads);
+}
+
+SubmitScripts slurm(const Call& call) {
+  const Submission& submission = call.submission;
+  const SubmitOptions& options = call.options;
+  const fs::path& work = call.work;
+  SubmitScripts scripts{work / "job.sh", work / "submit.sh", {}, {}};
+  scripts.job =
+      fmt::format("#!/bin/sh\n# One task of a job array: $1 is its kind.\n{}\n",
+                  work_command(call, submission.id + "/\"$1-$SLURM_ARRAY_TASK_ID\"", "\"${SLURM_CPUS_PER_TASK:-1}\""));
+  const std::string threads = options.threads > 0 ? fmt::format(" --cpus-per-task={}", options.threads) : "";
+  const auto array = [&](std::string_view kind, std::size_t tasks) {
+    return fmt::format("sbatch --parsable --job-name={} --array=1-{} --output={}{}",
+                       quoted(fmt::format("{}-{}", submission.sweep.stem().string(), kind)), tasks,
+                       quoted((work / fmt::format("{}-%a.log", kind)).string()), threads);
+  };
+  const std::string job = " " + quoted(scripts.job_file.string()) + " ";
+  const std::string more = quoted(options.engine_options);
+  scripts.submit = "#!/bin/sh\nset -e\n";
+  std::string after;
+  if (submission.shared > 0) {
+    scripts.submit += fmt::format("shared=$({}{}{}shared)\n", array("shared", submission.shared), more, job);
+    after = " --dependency=\"afterany:${shared%%;*}\"";
+  }
+  scripts.submit += fmt::format("{}{}{}{}shard\n", array("shard", submission.shards), after, more, job);
+  return scripts;
+}
+
+SubmitScripts parallel(const Call& call) {
+  const Submission& submission = call.submission;
+  const SubmitOptions& options = call.options;
+  const fs::path& work = call.work;
+  SubmitScripts scripts{{}, work / "submit.sh", {}, {}};
+  const auto stage = [&](std::string_view kind, std::size_t tasks) {
+    const std::string command = fmt::format("{} >>{} 2>&1",
+                                            work_command(call, fmt::format("{}/{}-{{}}", submission.id, kind),
+                                                         std::to_string(std::max(options.threads, 1))),
+                                            quoted((work / fmt::format("{}-{{}}.log", kind)).string()));
+    return fmt::format("seq {} | parallel --joblog {}{} {}\n", tasks,
+                       quoted((work / fmt::format("{}.joblog", kind)).string()), quoted(options.engine_options),
+                       quoted(command));
+  };
+  // The number of jobs that failed is no failure of the submission: `gather` says what became of the variants.
+  scripts.submit = "#!/bin/sh\n";
+  if (submission.shared > 0) scripts.submit += stage("shared", submission.shared);
+  scripts.submit += stage("shard", submission.shards);
+  return scripts;
+}
+
+/// Without a cache there is nothing through which a beginning could be shared.
+std::vector<WorkerTask> shared_tasks(const SweepPlan& plan, const std::vector<bool>& wanted, std::size_t most,
+                                     Cache* cache) {
+  if (cache == nullptr) return {};
+  std::vector<bool> done = wanted;
+  done.flip();
+  std::vector<bool> known;
+  for (const auto node : forecast(plan, done, cache).nodes) known.push_back(node == SweepForecast::Node::known);
+  return packed(shared_beginnings(plan, wanted, known), std::max<std::size_t>(1, most));
+}
+
+void begin_variants(const SweepFile& sweep, const SweepPlan& plan, const std::vector<bool>& wanted,
+                    const fs::path& out) {
+  for (std::size_t v = 0; v < wanted.size(); ++v) {
+    if (!wanted[v]) continue;
+    const SweepVariant& variant = plan.variants[v];
+    begin_variant(out, plan, variant);
+    write_note(variant_folder(out, variant), note_of(plan, variant, name_of(sweep, variant)));
+  }
+}
+
+void write_tasks(const fs::path& work, std::string_view kind, const std::vector<WorkerTask>& tasks) {
+  for (std::size_t t = 0; t < tasks.size(); ++t)
+    write_file(work / fmt::format("{}-{}", kind, t + 1), task_text(tasks[t]));
+}
+
+}  // namespace
+
+void write_submission(const fs::path& out, const Submission& s) {
+  const Json json{
+      {"id", s.id},         {"sweep", s.sweep.string()}, {"settings", s.settings}, {"folder", s.folder.string()},
+      {"build", s.build},   {"engine", s.engine},        {"variants", s.variants}, {"arguments", s.arguments},
+      {"cache", s.cache},   {"memory", s.memory},        {"timeout", s.timeout},   {"time", s.time},
+      {"shared", s.shared}, {"shards", s.shards}};
+  write_file(out / work_folder / record_name, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+Submission read_submission(const fs::path& out) {
+  const fs::path file = out / work_folder / record_name;
+  std::ifstream stream(file);
+  const Json json = Json::parse(stream, nullptr, false);
+  try {
+    return {json.at("id").get<std::string>(),
+            json.at("sweep").get<std::string>(),
+            json.at("settings").get<std::vector<std::string>>(),
+            json.at("folder").get<std::string>(),
+            json.at("build").get<std::string>(),
+            json.at("engine").get<std::string>(),
+            json.at("variants").get<std::vector<std::string>>(),
+            json.at("arguments").get<std::vector<std::string>>(),
+            json.at("cache").get<std::string>(),
+            json.at("memory").get<std::uint64_t>(),
+            json.at("timeout").get<double>(),
+            json.at("time").get<double>(),
+            json.at("shared").get<std::size_t>(),
+            json.at("shards").get<std::size_t>()};
+  } catch (const Json::exception&) {
+    throw Error(out.string() + " is not the folder of a sweep that was submitted",
+                "`atrium sweep submit FILE --out DIR` makes one");
+  }
+}
+
+SubmitScripts prepare_submission(const SweepFile& sweep, const SweepPlan& plan, Submission submission,
+                                 const SubmitOptions& options) {
+  submission.time = epoch_seconds();
+  submission.id = fmt::format("{:%Y%m%dT%H%M%S}-{}", fmt::gmtime(std::time(nullptr)), ::getpid());
+  std::vector<bool> wanted;
+  for (const auto& done : done_variants(options.out, plan, submission.build)) wanted.push_back(!done);
+  const auto count = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), true));
+  for (const auto& variant : plan.variants) submission.variants.push_back(variant.id);
+  submission.shards = std::min(count, options.shards > 0 ? options.shards : usual_shards);
+  const auto shared = shared_tasks(plan, wanted, submission.shards, options.cache);
+  submission.shared = shared.size();
+  const Call call{submission, options, options.out / work_folder / submission.id};
+  SubmitScripts scripts = submission.engine == "slurm" ? slurm(call) : parallel(call);
+  scripts.variants = count;
+  if (options.dry || count == 0) return scripts;
+  const SweepFolder folder(options.out, sweep);
+  std::error_code ignored;
+  fs::remove_all(options.out / work_folder, ignored);
+  fs::create_directories(call.work, ignored);
+  begin_variants(sweep, plan, wanted, options.out);
+  write_tasks(call.work, "shared", shared);
+  write_tasks(call.work, "shard", dealt(plan, wanted, submission.shards));
+  write_submission(options.out, submission);
+  if (!scripts.job.empty()) write_file(scripts.job_file, scripts.job);
+  write_file(scripts.submit_file, scripts.submit);
+  return scripts;
+}
+
+}  // namespace atrium
