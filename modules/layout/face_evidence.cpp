@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "modules/layout/raster.hpp"
 #include "modules/layout/wall_pairs.hpp"
@@ -24,7 +25,28 @@ double least_width(const BuildingFace& face, const Openings::Params& params) {
   return face.surface == SurfaceClass::wall ? std::min(params.min_width, params.min_height) : params.min_slab_width;
 }
 
+/// Finds the squares that points behind the face show through, knowing how many such points are strays.
+void open_up(FaceEvidence& evidence, double farthest) {
+  constexpr double clear = 2;  // strays within reach of a point: a third of what covers a square
+  const FaceMask& mask = evidence.mask;
+  const Eigen::AlignedBox2i all(Eigen::Vector2i(0, 0), Eigen::Vector2i(mask.width() - 1, mask.height() - 1));
+  std::size_t strays = 0;
+  const FaceMask inner = mask.eroded(evidence.spacing + mask.pixel());
+  for (const auto& p : evidence.through) strays += inner.at(p) == Square::solid ? 1 : 0;
+  const std::size_t solid = inner.count(all, Square::solid);
+  evidence.stray = solid > 0 ? static_cast<double>(strays) / static_cast<double>(solid) : 0;
+  if (evidence.stray > 0) farthest = std::min(farthest, 0.5 * (std::sqrt(clear / evidence.stray) - 1) * mask.pixel());
+  evidence.open = FaceMask(mask.box(), mask.pixel());
+  evidence.open.fill(all, Square::hidden);
+  evidence.open.cover(evidence.through, std::max(farthest, 0.0));
+}
+
 }  // namespace
+
+double depth_behind(const Openings::Params& params) {
+  constexpr double beyond = 0.4;
+  return params.max_thickness + beyond;
+}
 
 EvidenceFinder::EvidenceFinder(const Building& building, const Cloud& cloud, const Openings::Params& params)
     : building_(building), cloud_(cloud), params_(params), space_(cloud, params.pixel), seen_by_(cloud.sensors.size()) {
@@ -42,9 +64,13 @@ RoomView EvidenceFinder::view_of(std::int32_t index) const {
   RoomView view;
   if (room.outline.empty()) return view;
   const double floor = room.outline[0].z();
+  double ceiling = floor + eye;
+  for (const auto f : room.faces)
+    for (const auto v : building_.faces[static_cast<std::size_t>(f)].outline)
+      ceiling = std::max(ceiling, building_.vertices[v].z());
   for (std::size_t s = 0; s < cloud_.sensors.size(); ++s) {
     const Eigen::Vector3d p = cloud_.sensors[s].cast<double>();
-    if (!contains(room.outline, p) || p.z() <= floor || p.z() >= floor + 2 * std::max(room.height, eye)) continue;
+    if (p.z() <= floor || p.z() >= ceiling || !contains(room.outline, p)) continue;
     view.places.push_back(p);
     view.sensors.push_back(s);
   }
@@ -62,47 +88,61 @@ RoomView EvidenceFinder::view_of(std::int32_t index) const {
 }
 
 FaceEvidence EvidenceFinder::gather(std::size_t index) const {
-  constexpr double depth = 1.0, noise_levels = 3;
+  constexpr double noise_levels = 3;
   const BuildingFace& face = building_.faces[index];
-  const bool wall = face.surface == SurfaceClass::wall;
   FaceEvidence evidence;
-  if (views_[static_cast<std::size_t>(face.room)].places.empty()) return evidence;
+  const RoomView& view = views_[static_cast<std::size_t>(face.room)];
+  if (view.places.empty()) return evidence;
   evidence.frame = upright_frame(face.plane, building_.vertices[face.outline[0]]);
   evidence.tolerance = std::clamp(noise_levels * face.residual, params_.tolerance, 2 * params_.tolerance);
+  evidence.ways_known = !view.sensors.empty();
   Eigen::AlignedBox2d box;
-  Eigen::AlignedBox3d around;
-  for (const auto v : face.outline) {
-    const Eigen::Vector3d& p = building_.vertices[v];
-    box.extend(evidence.frame.to_plane(p));
-    around.extend(p + evidence.tolerance * face.plane.normal);
-    around.extend(p - depth * face.plane.normal);
-  }
+  for (const auto v : face.outline) box.extend(evidence.frame.to_plane(building_.vertices[v]));
   FaceMask& mask = evidence.mask = FaceMask(box, params_.pixel);
   for (int y = 0; y < mask.height(); ++y)
     for (int x = 0; x < mask.width(); ++x)
       if (face_contains(building_, face, evidence.frame.to_space(mask.centre(x, y)), 0)) mask.at(x, y) = Square::hidden;
+  collect_points(face, evidence);
+  const double least = least_width(face, params_);
+  evidence.spacing = mask.cover(evidence.on, 0.5 * least);
+  if (evidence.ways_known)
+    find_ways(face, evidence);
+  else
+    find_body(index, evidence);
+  open_up(evidence, 0.5 * least);
+  mask.drop_narrow(static_cast<int>((least - 2 * evidence.spacing) / mask.pixel()));
+  return evidence;
+}
+
+void EvidenceFinder::collect_points(const BuildingFace& face, FaceEvidence& evidence) const {
+  Eigen::AlignedBox3d around;
+  for (const auto v : face.outline) {
+    around.extend(building_.vertices[v] + evidence.tolerance * face.plane.normal);
+    around.extend(building_.vertices[v] - depth_behind(params_) * face.plane.normal);
+  }
+  const Eigen::AlignedBox2d& box = evidence.mask.box();
+  // The floor's points do not close doors.
+  const double foot = face.surface == SurfaceClass::wall ? box.min().y() + evidence.tolerance : box.min().y();
   space_.each_point_in(around, [&](const Eigen::Vector3d& p) {
     const double distance = face.plane.signed_distance(p);
-    if (distance > evidence.tolerance || distance < -depth) return;
+    if (distance > evidence.tolerance || distance < -depth_behind(params_)) return;
     const Eigen::Vector2d at = evidence.frame.to_plane(p);
     if (!box.contains(at)) return;
     if (distance < -evidence.tolerance)
       evidence.behind.emplace_back(at.x(), at.y(), -distance);
-    else if (!wall || at.y() > box.min().y() + evidence.tolerance)  // the floor's points do not close doors
+    else if (at.y() >= foot)
       evidence.on.push_back(at);
   });
-  evidence.ways_known = !views_[static_cast<std::size_t>(face.room)].sensors.empty();
-  find_ways(face, evidence);
-  const double least = least_width(face, params_);
-  evidence.spacing = mask.cover(evidence.on, 0.5 * least);
-  std::vector<Eigen::Vector2d> shown = evidence.through;
-  if (!evidence.ways_known)
-    for (const auto& p : evidence.behind) shown.emplace_back(p.head<2>());
-  evidence.open = FaceMask(box, params_.pixel);
-  evidence.open.fill({Eigen::Vector2i(0, 0), Eigen::Vector2i(mask.width() - 1, mask.height() - 1)}, Square::hidden);
-  evidence.open.cover(shown, 0.5 * least);
-  mask.drop_narrow(static_cast<int>((least - 2 * evidence.spacing) / mask.pixel()));
-  return evidence;
+}
+
+/// Points between the face and the one behind it; none can be in a solid wall.
+void EvidenceFinder::find_body(std::size_t index, FaceEvidence& evidence) const {
+  double thickness = params_.max_thickness;
+  for (const auto& wall : building_.walls)
+    if (wall.face_a == static_cast<std::int32_t>(index) || wall.face_b == static_cast<std::int32_t>(index))
+      thickness = std::min(thickness, wall.thickness - 0.5 * evidence.tolerance);
+  for (const auto& p : evidence.behind)
+    if (p.z() < thickness) evidence.through.emplace_back(p.head<2>());
 }
 
 void EvidenceFinder::find_ways(const BuildingFace& face, FaceEvidence& evidence) const {
@@ -129,25 +169,30 @@ void EvidenceFinder::look_through(std::size_t index, FaceEvidence& evidence) con
   const RoomView& view = views_[static_cast<std::size_t>(face.room)];
   FaceMask& mask = evidence.mask;
   const Eigen::Vector3d& normal = face.plane.normal;
-  const Eigen::Vector3d off = (evidence.tolerance + evidence.spacing + 2 * params_.pixel) * normal;
-  for (int y = 0; y < mask.height(); ++y)
-    for (int x = 0; x < mask.width(); ++x) {
-      if (mask.at(x, y) != Square::hidden) continue;
-      if (evidence.ways_known && evidence.open.at(x, y) == Square::solid) {
-        mask.at(x, y) = Square::hole;
-        continue;
-      }
-      const Eigen::Vector3d p = evidence.frame.to_space(mask.centre(x, y)) + off;
-      std::size_t seen = 0;
-      for (std::size_t i = 0; i < view.places.size() && seen + view.places.size() - i >= view.enough; ++i) {
-        const Eigen::Vector3d& place = view.places[i];
-        const Eigen::Vector3d way = place - p;
-        if (way.dot(normal) < grazing * way.norm() ||
-            !space_.is_free(p, place - way * std::min(1.0, blind / way.norm())))
-          continue;
-        if (++seen >= view.enough) break;
-      }
-      if (seen >= view.enough) mask.at(x, y) = Square::hole;
+  const Eigen::Vector3d off = std::max(evidence.tolerance + evidence.spacing, 2 * params_.pixel) * normal;
+  const auto is_seen = [&](int x, int y) {
+    const Eigen::Vector3d p = evidence.frame.to_space(mask.centre(x, y)) + off;
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < view.places.size() && seen + view.places.size() - i >= view.enough; ++i) {
+      const Eigen::Vector3d way = view.places[i] - p;
+      if (way.dot(normal) < grazing * way.norm()) continue;
+      const double spared = evidence.ways_known ? std::min(1.0, blind / way.norm()) : 0;
+      if (space_.is_free(p, view.places[i] - spared * way) && ++seen >= view.enough) return true;
+    }
+    return false;
+  };
+  // One way for each block of squares.
+  constexpr int block = 2;
+  for (int y0 = 0; y0 < mask.height(); y0 += block)
+    for (int x0 = 0; x0 < mask.width(); x0 += block) {
+      std::optional<bool> seen;
+      for (int y = y0; y < std::min(y0 + block, mask.height()); ++y)
+        for (int x = x0; x < std::min(x0 + block, mask.width()); ++x) {
+          if (mask.at(x, y) != Square::hidden) continue;
+          const bool open = evidence.ways_known && evidence.open.at(x, y) == Square::solid;
+          if (!open && !seen) seen = is_seen(x, y);
+          if (open || *seen) mask.at(x, y) = Square::hole;
+        }
     }
 }
 

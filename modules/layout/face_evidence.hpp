@@ -16,12 +16,17 @@ struct FaceEvidence {
   FaceMask mask;                         ///< no squares: the face was not looked at
   std::vector<Eigen::Vector2d> on;       ///< points of the face
   std::vector<Eigen::Vector3d> behind;   ///< points up to a metre behind it; the third number is how far
-  std::vector<Eigen::Vector2d> through;  ///< where the ways from the room's scanner places to points behind it cross it
+  std::vector<Eigen::Vector2d> through;  ///< where the ways from the room's scanner places to points behind it cross
+                                         ///< it; where those are not known: the points within the wall
+  double stray = 0;                      ///< how many of these there are per solid square, where none can be
   bool ways_known = false;               ///< whether it is known from where points were seen; otherwise none cross it
   double tolerance = 0;                  ///< points this near lie on the face, metres
   double spacing = 0;                    ///< how far points stand for the surface around them, metres (FaceMask::cover)
   bool looked_at() const { return mask.width() > 0; }
 };
+
+/// How far behind a face points are looked at, metres.
+double depth_behind(const Openings::Params& params);
 
 /// From where the faces of a room were seen.
 struct RoomView {
@@ -42,7 +47,9 @@ class EvidenceFinder {
 
  private:
   RoomView view_of(std::int32_t room) const;
+  void collect_points(const BuildingFace& face, FaceEvidence& evidence) const;
   void find_ways(const BuildingFace& face, FaceEvidence& evidence) const;
+  void find_body(std::size_t face, FaceEvidence& evidence) const;
 
   const Building& building_;
   const Cloud& cloud_;

@@ -9,7 +9,7 @@
 namespace atrium::layout {
 namespace {
 
-constexpr std::size_t few = 8;        // points: fewer say nothing about where a side is
+constexpr std::size_t few = 6;        // points: fewer say nothing
 constexpr double reveal_depth = 0.3;  // metres behind the face that jambs are looked for
 
 /// One side of a rough rectangle, and the places beside it as numbers that grow towards the hole.
@@ -119,35 +119,49 @@ bool name_hole(const Openings::Params& params, const BuildingFace& face, const E
   return true;
 }
 
-/// Whether anything was seen behind a hole: its reveal at least.
+/// Whether anything was seen behind a hole, its reveal at least, and more than strays.
 bool seen_through(const FaceEvidence& evidence, const FaceHole& hole) {
-  constexpr double least_share = 0.02;
-  constexpr std::size_t least = 3;
+  constexpr double least_share = 0.02, clear = 3;
   const Eigen::AlignedBox2i squares = evidence.open.squares_in(hole.box);
-  const std::size_t shown = evidence.open.count(squares, Square::solid);
-  return shown >= least &&
-         static_cast<double>(shown) >= least_share * (squares.sizes().x() + 1.0) * (squares.sizes().y() + 1.0);
+  const double all = (squares.sizes().x() + 1.0) * (squares.sizes().y() + 1.0);
+  const auto points = std::count_if(evidence.through.begin(), evidence.through.end(),
+                                    [&](const Eigen::Vector2d& p) { return hole.box.contains(p); });
+  return static_cast<double>(points) >= static_cast<double>(few) + clear * evidence.stray * all &&
+         static_cast<double>(evidence.open.count(squares, Square::solid)) >= least_share * all;
 }
 
 /// Whether one can go through a hole that meets the floor: a leaf fills it, or the floor goes on behind it.
 bool leads_on(const FaceEvidence& evidence, const FaceHole& hole, const Openings::Params& params) {
-  constexpr double frame = 0.1, most = 0.5;  // metres of the sides that may be reveal; share of the rest
-  const double foot = hole.box.min().y();
-  Eigen::AlignedBox2d inner(hole.box.min() + Eigen::Vector2d(frame, frame),
-                            hole.box.max() - Eigen::Vector2d(frame, frame));
-  if (inner.isEmpty()) return true;
-  FaceMask leaf(inner, evidence.mask.pixel());
-  const Eigen::AlignedBox2i all(Eigen::Vector2i(0, 0), Eigen::Vector2i(leaf.width() - 1, leaf.height() - 1));
-  leaf.fill(all, Square::hidden);
-  std::vector<Eigen::Vector2d> near;
-  std::size_t floor = 0;
+  constexpr double reveal = 0.15, least = 0.2;  // metres inside of the sides; of the density of the face's own points
+  const FaceMask& mask = evidence.mask;
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(reveal).cwiseMin(0.25 * hole.box.sizes());
+  const Eigen::AlignedBox2d inner(hole.box.min() + margin, hole.box.max() - margin);
+  const auto solid = static_cast<double>(mask.count(mask.squares_in(mask.box()), Square::solid));
+  const double density = static_cast<double>(evidence.on.size()) / std::max(1.0, solid);  // per square
+  double leaf = 0, floor = 0;
   for (const auto& p : evidence.behind) {
-    if (p.z() < params.max_thickness) near.emplace_back(p.head<2>());
-    if (p.z() > params.max_thickness && p.y() < foot + 2 * frame && p.x() > inner.min().x() && p.x() < inner.max().x())
-      ++floor;
+    if (p.z() < params.max_thickness)
+      leaf += inner.contains(Eigen::Vector2d(p.head<2>())) ? 1 : 0;
+    else if (p.x() > inner.min().x() && p.x() < inner.max().x() && p.y() < hole.box.min().y() + reveal)
+      floor += 1;
   }
-  leaf.cover(near, 0.5 * params.min_width);
-  return floor >= few || static_cast<double>(leaf.count(all, Square::solid)) > most * leaf.width() * leaf.height();
+  const double per_square = least * density / (mask.pixel() * mask.pixel());
+  return leaf >= per_square * inner.volume() ||
+         floor >= per_square * inner.sizes().x() * (depth_behind(params) - params.max_thickness);
+}
+
+/// Leaves out those that touch a larger one: they are its fringe.
+void drop_fringes(std::vector<FaceHole>& holes, const FaceEvidence& evidence) {
+  const Eigen::Vector2d near = Eigen::Vector2d::Constant(evidence.spacing + evidence.mask.pixel());
+  std::stable_sort(holes.begin(), holes.end(),
+                   [](const auto& a, const auto& b) { return a.box.volume() > b.box.volume(); });
+  std::vector<FaceHole> kept;
+  for (const auto& hole : holes) {
+    const Eigen::AlignedBox2d around(hole.box.min() - near, hole.box.max() + near);
+    if (std::none_of(kept.begin(), kept.end(), [&](const auto& other) { return around.intersects(other.box); }))
+      kept.push_back(hole);
+  }
+  holes = std::move(kept);
 }
 
 }  // namespace
@@ -167,6 +181,7 @@ std::vector<FaceHole> face_holes(const BuildingFace& face, FaceEvidence& evidenc
         result.push_back(hole);
       }
     }
+  drop_fringes(result, evidence);
   return result;
 }
 

@@ -96,6 +96,20 @@ double FaceMask::cover(const std::vector<Eigen::Vector2d>& points, double farthe
   return usual * pixel_;
 }
 
+FaceMask FaceMask::eroded(double margin) const {
+  const int reach = static_cast<int>(std::ceil(margin / pixel_));
+  Sums free(width_, height_);
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x)
+      if (at(x, y) == Square::hidden || at(x, y) == Square::hole) free.add(x, y);
+  free.finish();
+  FaceMask result = *this;
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x)
+      if (at(x, y) == Square::solid && free.around(x, y, reach) > 0) result.at(x, y) = Square::hidden;
+  return result;
+}
+
 void FaceMask::drop_narrow(int side) {
   constexpr double most = 0.7;
   const int reach = std::max(0, side / 2 - 1);

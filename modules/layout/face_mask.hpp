@@ -35,6 +35,8 @@ class FaceMask {
   /// edges; at most `farthest`. Single points far from all others cover their own square only. Returns how far most
   /// points reach, metres.
   double cover(const std::vector<Eigen::Vector2d>& points, double farthest);
+  /// The mask without the solid squares at most `margin` away from hidden ones or holes: those become hidden.
+  FaceMask eroded(double margin) const;
   /// Hidden squares that lie in no hidden block of this many squares a side (about) become solid.
   void drop_narrow(int side);
   /// The rectangle with the most hole squares and the fewest others: of all that lie in the given one, that with the

@@ -153,8 +153,7 @@ bool FreeSpace::is_free(const Eigen::Vector3d& from, const Eigen::Vector3d& to) 
   const int steps = static_cast<int>(std::ceil(way.norm()));
   const Eigen::Vector3d step = way / steps;
   Eigen::Vector3d at = begin;
-  for (int i = 1; i < steps; ++i) {
-    at += step;
+  for (int i = 0; i < steps; ++i, at += step) {
     const auto x = static_cast<std::int64_t>(at.x()), y = static_cast<std::int64_t>(at.y()),
                z = static_cast<std::int64_t>(at.z());
     if (x < 0 || y < 0 || z < 0 || x >= size_[0] || y >= size_[1] || z >= size_[2]) continue;

@@ -31,7 +31,7 @@ class FreeSpace {
             visit(cloud_.points[order_[i]].template cast<double>());
         }
   }
-  /// Whether no voxel on the way is occupied. Both ends may stand in one.
+  /// Whether no voxel on the way is occupied. The end may stand in one.
   bool is_free(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
   bool is_occupied(const Eigen::Vector3d& place) const;
 
