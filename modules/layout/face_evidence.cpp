@@ -27,7 +27,7 @@ double least_width(const BuildingFace& face, const Openings::Params& params) {
 
 /// Finds the squares that points behind the face show through, knowing how many such points are strays.
 void open_up(FaceEvidence& evidence, double farthest) {
-  constexpr double clear = 2;  // strays within reach of a point: a third of what covers a square
+  constexpr double clear = 1;  // strays within reach of a point, where six cover a square
   const FaceMask& mask = evidence.mask;
   const Eigen::AlignedBox2i all(Eigen::Vector2i(0, 0), Eigen::Vector2i(mask.width() - 1, mask.height() - 1));
   std::size_t strays = 0;
@@ -83,7 +83,7 @@ RoomView EvidenceFinder::view_of(std::int32_t index) const {
       const Eigen::Vector3d p(x, y, floor + std::min(eye, room.height / 2));
       if (contains(room.outline, p) && !space_.is_occupied(p)) view.places.push_back(p);
     }
-  view.enough = std::max<std::size_t>(1, view.places.size() / 2);
+  view.enough = std::max<std::size_t>(1, view.places.size() / 4);
   return view;
 }
 
@@ -189,7 +189,7 @@ void EvidenceFinder::look_through(std::size_t index, FaceEvidence& evidence) con
       for (int y = y0; y < std::min(y0 + block, mask.height()); ++y)
         for (int x = x0; x < std::min(x0 + block, mask.width()); ++x) {
           if (mask.at(x, y) != Square::hidden) continue;
-          const bool open = evidence.ways_known && evidence.open.at(x, y) == Square::solid;
+          const bool open = evidence.open.at(x, y) == Square::solid;
           if (!open && !seen) seen = is_seen(x, y);
           if (open || *seen) mask.at(x, y) = Square::hole;
         }

@@ -13,6 +13,7 @@ namespace atrium::layout {
 struct FaceEvidence {
   PlaneFrame frame;
   FaceMask open;                         ///< its solid squares are those that points behind the face show through
+  FaceMask seen_from_both;               ///< its holes are those that are holes of the face behind it too
   FaceMask mask;                         ///< no squares: the face was not looked at
   std::vector<Eigen::Vector2d> on;       ///< points of the face
   std::vector<Eigen::Vector3d> behind;   ///< points up to a metre behind it; the third number is how far

@@ -119,13 +119,29 @@ bool name_hole(const Openings::Params& params, const BuildingFace& face, const E
   return true;
 }
 
-/// Whether anything was seen behind a hole, its reveal at least, and more than strays.
+/// Whether a hole may be the upper part of a door: it is as high, and what is below it is hidden.
+bool has_hidden_foot(const FaceEvidence& evidence, const FaceHole& hole) {
+  constexpr double least_top = 1.7, most = 0.5;  // metres over the foot; share that may be solid
+  const double foot = evidence.mask.box().min().y();
+  if (hole.box.max().y() < foot + least_top) return false;
+  Eigen::AlignedBox2d below = hole.box;
+  below.max().y() = hole.box.min().y();
+  below.min().y() = foot;
+  const Eigen::AlignedBox2i squares = evidence.mask.squares_in(below);
+  return static_cast<double>(evidence.mask.count(squares, Square::solid)) <=
+         most * (squares.sizes().x() + 1.0) * (squares.sizes().y() + 1.0);
+}
+
+/// Whether anything was seen behind a hole, its reveal at least, and more than strays; or the hole from both sides.
 bool seen_through(const FaceEvidence& evidence, const FaceHole& hole) {
-  constexpr double least_share = 0.02, clear = 3;
-  const Eigen::AlignedBox2i squares = evidence.open.squares_in(hole.box);
+  constexpr double least_share = 0.02, clear = 6, most = 0.5;  // strays are denser where the way is short
+  const Eigen::Vector2d jamb = Eigen::Vector2d::Constant(evidence.mask.pixel());
+  const Eigen::AlignedBox2d around(hole.box.min() - jamb, hole.box.max() + jamb);
+  const Eigen::AlignedBox2i squares = evidence.open.squares_in(around);
   const double all = (squares.sizes().x() + 1.0) * (squares.sizes().y() + 1.0);
   const auto points = std::count_if(evidence.through.begin(), evidence.through.end(),
-                                    [&](const Eigen::Vector2d& p) { return hole.box.contains(p); });
+                                    [&](const Eigen::Vector2d& p) { return around.contains(p); });
+  if (static_cast<double>(evidence.seen_from_both.count(squares, Square::hole)) > most * all) return true;
   return static_cast<double>(points) >= static_cast<double>(few) + clear * evidence.stray * all &&
          static_cast<double>(evidence.open.count(squares, Square::solid)) >= least_share * all;
 }
@@ -177,7 +193,9 @@ std::vector<FaceHole> face_holes(const BuildingFace& face, FaceEvidence& evidenc
       if (!filled) continue;
       FaceHole hole = hole_of(*squares, evidence);
       if (name_hole(params, face, evidence.mask.box(), hole) && seen_through(evidence, hole)) {
-        hole.leads_on = hole.kind == "door" && leads_on(evidence, hole, params);
+        hole.foot = evidence.mask.box().min().y();
+        hole.foot_hidden = face.surface == SurfaceClass::wall && has_hidden_foot(evidence, hole);
+        hole.leads_on = leads_on(evidence, hole, params);
         result.push_back(hole);
       }
     }

@@ -15,7 +15,8 @@ struct FaceHole {
   PlaneFrame frame;
   Eigen::AlignedBox2d box;               ///< in the frame
   std::array<std::size_t, 4> support{};  ///< how many points say where each side is: left, right, bottom, top
-  bool foot_hidden = false;              ///< nothing says that what is below it, down to the face's foot, is solid
+  double foot = 0;                       ///< of the face, in the frame
+  bool foot_hidden = false;              ///< it may go on down to the foot: what is below it was not seen
   bool leads_on = false;                 ///< points behind it are a leaf, or a place to go to
 };
 

@@ -12,24 +12,25 @@ Eigen::Vector3d moved_onto(const Plane& plane, const Eigen::Vector3d& p) {
   return p - plane.normal * plane.signed_distance(p);
 }
 
-/// The hidden squares of each face of which a face behind it says `what`, and their new state.
-void take(const Building& building, Evidence& evidence, Square what) {
+using Squares = std::vector<std::vector<Eigen::Vector2i>>;  // per face
+
+/// The squares of each face that are `mine`, and of which a face behind it says `its`.
+Squares squares_where(const Building& building, const Evidence& evidence, Square mine, Square its) {
   const auto behind = opposite_faces(building);
-  std::vector<std::vector<Eigen::Vector2i>> taken(evidence.size());
+  Squares result(evidence.size());
   for (std::size_t f = 0; f < evidence.size(); ++f) {
     const FaceMask& mask = evidence[f].mask;
     for (int y = 0; y < mask.height(); ++y)
       for (int x = 0; x < mask.width(); ++x) {
-        if (mask.at(x, y) != Square::hidden) continue;
+        if (mask.at(x, y) != mine) continue;
         const Eigen::Vector3d p = evidence[f].frame.to_space(mask.centre(x, y));
         if (std::any_of(behind[f].begin(), behind[f].end(), [&](std::size_t other) {
-              return evidence[other].looked_at() && evidence[other].mask.at(evidence[other].frame.to_plane(p)) == what;
+              return evidence[other].looked_at() && evidence[other].mask.at(evidence[other].frame.to_plane(p)) == its;
             }))
-          taken[f].emplace_back(x, y);
+          result[f].emplace_back(x, y);
       }
   }
-  for (std::size_t f = 0; f < evidence.size(); ++f)
-    for (const auto& square : taken[f]) evidence[f].mask.at(square.x(), square.y()) = what;
+  return result;
 }
 
 /// The second rectangle in the frame of the first.
@@ -55,6 +56,12 @@ void agree(FaceHole& a, const FaceHole& b) {
     const auto axis = static_cast<Eigen::Index>(s / 2);
     (s % 2 == 0 ? a.box.min()[axis] : a.box.max()[axis]) = s % 2 == 0 ? box.min()[axis] : box.max()[axis];
   }
+}
+
+/// What is known to lead on and hides its foot is a door.
+void reach_foot(FaceHole& hole) {
+  hole.kind = "door";
+  hole.box.min().y() = hole.foot;
 }
 
 class Joining {
@@ -88,8 +95,10 @@ class Joining {
       }
     if (most > enough) {
       used_[other][twin] = true;
-      if (found_[other][twin].kind == "door") hole.kind = "door";
-      agree(hole, found_[other][twin]);
+      const FaceHole& back = found_[other][twin];
+      const bool door = hole.kind == "door" || back.kind == "door" || (hole.foot_hidden && back.foot_hidden);
+      agree(hole, back);
+      if (door) reach_foot(hole);
       add(f, hole, &other);
       return;
     }
@@ -102,9 +111,11 @@ class Joining {
           }))
         continue;
       other = face;
+      if (hole.foot_hidden) reach_foot(hole);
       add(f, hole, &other);
       return;
     }
+    if (hole.kind == "window" && hole.foot_hidden && hole.leads_on) reach_foot(hole);
     if (!hole.leads_on && hole.kind == "door") hole.kind = "window";  // glazed down to the floor
     add(f, hole, nullptr);
   }
@@ -145,9 +156,24 @@ std::vector<std::vector<std::size_t>> opposite_faces(const Building& building) {
   return result;
 }
 
-void take_solid_from_behind(const Building& building, Evidence& evidence) { take(building, evidence, Square::solid); }
+void take_solid_from_behind(const Building& building, Evidence& evidence) {
+  const Squares taken = squares_where(building, evidence, Square::hidden, Square::solid);
+  for (std::size_t f = 0; f < evidence.size(); ++f)
+    for (const auto& square : taken[f]) evidence[f].mask.at(square.x(), square.y()) = Square::solid;
+}
 
-void take_holes_from_behind(const Building& building, Evidence& evidence) { take(building, evidence, Square::hole); }
+void take_holes_from_behind(const Building& building, Evidence& evidence) {
+  const Squares both = squares_where(building, evidence, Square::hole, Square::hole);
+  const Squares taken = squares_where(building, evidence, Square::hidden, Square::hole);
+  for (std::size_t f = 0; f < evidence.size(); ++f) {
+    if (!evidence[f].looked_at()) continue;
+    evidence[f].seen_from_both = FaceMask(evidence[f].mask.box(), evidence[f].mask.pixel());
+    // With known ways of sight those through the hole must be there.
+    if (!evidence[f].ways_known)
+      for (const auto& square : both[f]) evidence[f].seen_from_both.at(square.x(), square.y()) = Square::hole;
+    for (const auto& square : taken[f]) evidence[f].mask.at(square.x(), square.y()) = Square::hole;
+  }
+}
 
 std::vector<BuildingOpening> joined(const Building& building, const Found& found) {
   return Joining(building, found).run();

@@ -7,16 +7,22 @@ namespace atrium::layout {
 
 /// Finds doors, windows and holes in slabs: where a face must have been hit if it were solid, and was not.
 ///
-/// - A square of a face is a hole if no point lies within `tolerance` of it although it was in sight: the way from it
-///   to a place of the scanner in its room is free (of occupied voxels). Without known places of the scanner, to most
-///   of a grid of places 1.5 m above the room's floor. What furniture hides is no hole, and neither is a hole
-///   behind which nothing was seen, not even its reveal.
-/// - Connected squares are an opening if they fill min_fill of their rectangle, which is min_width wide and min_height
-///   high at least (in floors and ceilings: both min_slab_width). Its sides are moved to where the points of the face
-///   begin around it. A rectangle that begins within sill_height over its face's foot is a door and reaches the foot;
-///   others are windows.
-/// - Openings of two faces back to back that lie over each other are one: it joins their rooms, and has the thickness
-///   of the wall. If only one face shows it and the other is there and unseen at that place, it goes through as well.
+/// - A square of a face is solid if points lie on it (within `tolerance`, or thrice the face's noise) or around it as
+///   densely as they do there; if the face behind it in the same wall is solid there; else it is hidden.
+/// - A hidden square is a hole if points behind the face show through it (by the ways from the scanner's places in the
+///   room; without these, points between the wall's faces), or if the way from there to such a place is free. Without
+///   known places, to a quarter of a grid of places 1.5 m above the room's floor. Surfaces stop ways however sparse
+///   they are, single points do not. What is a hole in one face and hidden in the one behind it is a hole in both.
+/// - Of each connected part the rectangles that hold the most holes and the fewest solid squares are openings if they
+///   are min_width wide and min_height high (in floors and ceilings: both min_slab_width), if min_fill of them is a
+///   hole (hidden squares count half), and if something shows through them, more than strays do: a reveal at least.
+///   Their sides are moved to where the face's points begin around them, or to the jambs of the reveal.
+/// - What begins within sill_height over its face's foot, or hides its foot and joins two rooms or has a leaf, is a
+/// door
+///   and reaches the foot. One that joins no rooms, shows no leaf and has no floor beyond is glazed: a window, as all
+///   others are.
+/// - Rectangles of two faces back to back that lie over each other are one opening: it joins their rooms, and has the
+///   thickness of the wall; each side is where more points say so.
 ///
 /// The wall pairs (two faces back to back at most max_thickness apart, with their overlap) are written too. No random
 /// numbers. Source: occlusion reasoning after A. Adan, D. Huber, 3D reconstruction of interior wall surfaces under
@@ -46,8 +52,7 @@ struct Openings {
                  port(&In::structure, "structure", "The points, in the building's frame, with the scanner's places.")};
   static constexpr auto outputs = std::tuple{port(&Out::building, "building", "The same with openings and walls.")};
   static constexpr auto params = std::tuple{
-      param(&Params::pixel, "pixel", metres, within(0.01, 1),
-            "Least edge of the squares; scans that do not fill them have larger ones."),
+      param(&Params::pixel, "pixel", metres, within(0.01, 1), "Edge of the squares that a face is divided into."),
       param(&Params::tolerance, "tolerance", metres, within(0.001, 1), "Points this near to a face lie on it."),
       param(&Params::min_width, "min_width", metres, within(0.05, 10), "Of an opening in a wall."),
       param(&Params::min_height, "min_height", metres, within(0.05, 10), "Of an opening in a wall."),

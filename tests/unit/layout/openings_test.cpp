@@ -1,0 +1,188 @@
+// Doors and windows of exact rooms: what furniture, the other side of a wall, reveals and scanner places say of them.
+#include "modules/layout/openings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "tests/support/rooms.hpp"
+#include "tests/unit/layout/chain.hpp"
+
+namespace atrium::layout {
+namespace {
+
+using Eigen::AlignedBox2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using namespace atrium::test;
+using Scene = atrium::test::Rooms;
+
+/// What of a rectangle from `corner` is missing: a box in coordinates along its edges.
+auto without(const Vector3d& corner, const Vector3d& along, const AlignedBox2d& hole) {
+  return [=](const Vector3d& p) {
+    const Vector2d at(along.normalized().dot(p - corner), p.z() - corner.z());
+    return !((at.array() > hole.min().array() + 1e-9).all() && (at.array() < hole.max().array() - 1e-9).all());
+  };
+}
+
+/// A box room of 4 × 3 × 2.5 m whose wall at y = 0 lacks a rectangle, in x and z.
+Scene room_with(const AlignedBox2d& hole, double spacing = 0.05) {
+  Scene scene;
+  scene.spacing = spacing;
+  scene.floor(0, 0, 4, 3).ceiling(0, 0, 4, 3).wall(4, 0, 4, 3).wall(4, 3, 0, 3).wall(0, 3, 0, 0);
+  scene.add({0, 0, 0}, {4, 0, 0}, {0, 0, 2.5}, {0, 1, 0}, without({0, 0, 0}, {1, 0, 0}, hole));
+  return scene;
+}
+
+/// Points of a rectangle that belong to no primitive.
+void scatter(Scene& scene, const Vector3d& corner, const Vector3d& a, const Vector3d& b, double spacing = 0.025) {
+  const int na = static_cast<int>(a.norm() / spacing), nb = static_cast<int>(b.norm() / spacing);
+  for (int i = 0; i <= na; ++i)
+    for (int j = 0; j <= nb; ++j) scene.stray(corner + a * (1.0 * i / na) + b * (1.0 * j / nb));
+}
+
+/// The sides of a hole in the wall at y = 0, 25 cm deep; a door's has no sill.
+void add_reveal(Scene& scene, const AlignedBox2d& hole) {
+  const Vector3d low(hole.min().x(), 0, hole.min().y()), across(hole.sizes().x(), 0, 0), up(0, 0, hole.sizes().y());
+  const Vector3d depth(0, -0.25, 0);
+  scatter(scene, low, up, depth);
+  scatter(scene, low + across, up, depth);
+  scatter(scene, low + up, across, depth);
+  if (low.z() > 0) scatter(scene, low, across, depth);
+}
+
+AlignedBox2d place_of(const BuildingOpening& opening) {
+  AlignedBox2d box;
+  for (const auto& p : opening.outline_a) box.extend(Vector2d(p.x(), p.z()));
+  return box;
+}
+
+/// The same with scanner places; all points are of the first one that lies in the same half (x below or above
+/// `border`).
+PlanePrimitives seen_from(const PlanePrimitives& planes, const std::vector<Vector3d>& places, double border = 1e9) {
+  PlanePrimitives result = planes;
+  Cloud cloud = *planes.cloud;
+  for (const auto& place : places) cloud.sensors.emplace_back(place.cast<float>());
+  for (const auto& p : cloud.points) cloud.source.push_back(places.size() > 1 && p.x() > border ? 1 : 0);
+  result.cloud = std::make_shared<const Cloud>(cloud);
+  return result;
+}
+
+const AlignedBox2d window(Vector2d(1.2, 0.9), Vector2d(2.5, 2.0));
+
+TEST(Openings, AWindowWithItsReveal) {
+  Scene scene = room_with(window);
+  add_reveal(scene, window);
+  for (const auto& planes : {scene.planes(), seen_from(scene.planes(), {{2, 2, 1.5}, {3, 1, 1.5}})}) {
+    const auto layout = laid_out(planes);
+    ASSERT_EQ(layout.building.openings.size(), 1U);
+    const auto& opening = layout.building.openings[0];
+    EXPECT_EQ(opening.kind, "window");
+    EXPECT_EQ(opening.face_b, -1);
+    EXPECT_EQ(opening.room_b, -1);
+    EXPECT_LT((place_of(opening).min() - window.min()).cwiseAbs().maxCoeff(), 0.03);
+    EXPECT_LT((place_of(opening).max() - window.max()).cwiseAbs().maxCoeff(), 0.03);
+  }
+}
+
+TEST(Openings, BehindAHoleSomethingMustShow) {
+  EXPECT_TRUE(laid_out(room_with(window).planes()).building.openings.empty());
+}
+
+TEST(Openings, SparsePointsLeaveNoHolesButTheWindow) {
+  Scene scene = room_with(window, 0.14);
+  add_reveal(scene, window);
+  const auto layout = laid_out(scene.planes());
+  ASSERT_EQ(layout.building.openings.size(), 1U);
+  // The reveal is dense enough to say where its sides are.
+  EXPECT_LT((place_of(layout.building.openings[0]).min() - window.min()).cwiseAbs().maxCoeff(), 0.03);
+  EXPECT_LT((place_of(layout.building.openings[0]).max() - window.max()).cwiseAbs().maxCoeff(), 0.03);
+}
+
+TEST(Openings, AWardrobeHidesTheWallAndIsNoOpening) {
+  const AlignedBox2d hidden(Vector2d(1, 0), Vector2d(2.6, 2.1));
+  Scene scene = room_with(hidden);
+  // Its front and sides; the wall behind it shows nowhere, and a few points lie beyond.
+  scatter(scene, {1, 0.6, 0}, {1.6, 0, 0}, {0, 0, 2.1});
+  scatter(scene, {1, 0, 0}, {0, 0.6, 0}, {0, 0, 2.1});
+  scatter(scene, {2.6, 0, 0}, {0, 0.6, 0}, {0, 0, 2.1});
+  scatter(scene, {1, 0, 2.1}, {1.6, 0, 0}, {0, 0.6, 0});
+  for (const double x : {1.2, 1.5, 1.9, 2.3}) scene.stray({x, -0.3, 1.1});
+  EXPECT_TRUE(laid_out(scene.planes()).building.openings.empty());
+  EXPECT_TRUE(laid_out(seen_from(scene.planes(), {{2, 2, 1.5}, {3, 1.5, 1.5}})).building.openings.empty());
+}
+
+TEST(Openings, AShutDoorIsADoorAndGlassDownToTheFloorAWindow) {
+  for (const bool leaf : {true, false}) {
+    const AlignedBox2d hole(Vector2d(1.5, 0), Vector2d(2.4, 2.05));
+    Scene scene = room_with(hole);
+    add_reveal(scene, hole);
+    if (leaf) scatter(scene, {1.5, -0.25, 0}, {0.9, 0, 0}, {0, 0, 2.05});
+    const auto layout = laid_out(scene.planes());
+    ASSERT_EQ(layout.building.openings.size(), 1U) << leaf;
+    EXPECT_EQ(layout.building.openings[0].kind, leaf ? "door" : "window");
+    EXPECT_NEAR(place_of(layout.building.openings[0]).min().y(), 0, 1e-3);
+    EXPECT_NEAR(place_of(layout.building.openings[0]).max().y(), 2.05, 0.03);
+  }
+}
+
+TEST(Openings, ADoorBesideACornerIsFound) {
+  const AlignedBox2d hole(Vector2d(0.05, 0), Vector2d(0.75, 2));
+  Scene scene = room_with(hole);
+  add_reveal(scene, hole);
+  scatter(scene, {0.05, -0.25, 0}, {0.7, 0, 0}, {0, 0, 2});
+  const auto layout = laid_out(scene.planes());
+  ASSERT_EQ(layout.building.openings.size(), 1U);
+  EXPECT_EQ(layout.building.openings[0].kind, "door");
+  EXPECT_NEAR(place_of(layout.building.openings[0]).min().x(), 0.05, 0.055);  // no wall is left there
+  EXPECT_NEAR(place_of(layout.building.openings[0]).max().x(), 0.75, 0.03);
+}
+
+/// Two rooms beside each other, the wall between them 12 cm thick, its two faces with holes in y and z.
+Scene two_rooms(const AlignedBox2d& west, const AlignedBox2d& east) {
+  Scene scene;
+  for (const double x : {0.0, 4.12})
+    scene.floor(x, 0, x + 4, 3).ceiling(x, 0, x + 4, 3).wall(x, 0, x + 4, 0).wall(x + 4, 3, x, 3);
+  scene.wall(0, 3, 0, 0).wall(8.12, 0, 8.12, 3);
+  scene.add({4, 0, 0}, {0, 3, 0}, {0, 0, 2.5}, {-1, 0, 0}, without({4, 0, 0}, {0, 1, 0}, west));
+  scene.add({4.12, 0, 0}, {0, 3, 0}, {0, 0, 2.5}, {1, 0, 0}, without({4.12, 0, 0}, {0, 1, 0}, east));
+  return scene;
+}
+const AlignedBox2d door(Vector2d(1, 0), Vector2d(1.9, 2));
+const std::vector<Vector3d> in_both{{2, 1.4, 1.5}, {6, 1.4, 1.5}};
+
+TEST(Openings, WhatTheOtherSideOfTheWallShowsIsNoHole) {
+  // A niche: the face lacks points and its back is seen, but the other room's face is whole.
+  Scene scene = two_rooms(door, {});
+  scatter(scene, {4.08, 1, 0}, {0, 0.9, 0}, {0, 0, 2});
+  EXPECT_TRUE(laid_out(scene.planes()).building.openings.empty());
+  EXPECT_TRUE(laid_out(seen_from(scene.planes(), in_both, 4.06)).building.openings.empty());
+}
+
+TEST(Openings, ADoorWhoseFootIsHiddenReachesTheFloor) {
+  // A chest stands before it on both sides.
+  Scene scene = two_rooms(door, door);
+  for (const double x : {3.6, 4.52}) scatter(scene, {x, 0.8, 0}, {0, 1.3, 0}, {0, 0, 0.8});
+  for (const double x : {3.6, 4.12}) scatter(scene, {x, 0.8, 0.8}, {0, 1.3, 0}, {0.4, 0, 0});
+  scatter(scene, {4, 1, 0.8}, {0, 0, 1.2}, {0.12, 0, 0});
+  scatter(scene, {4, 1.9, 0.8}, {0, 0, 1.2}, {0.12, 0, 0});
+  const auto layout = laid_out(scene.planes());
+  ASSERT_EQ(layout.building.openings.size(), 1U);
+  EXPECT_EQ(layout.building.openings[0].kind, "door");
+  EXPECT_NEAR(layout.building.openings[0].thickness, 0.12, 1e-6);
+  EXPECT_NEAR(place_of(layout.building.openings[0]).min().y(), 0, 1e-3);
+  EXPECT_NE(layout.building.openings[0].room_a, layout.building.openings[0].room_b);
+}
+
+TEST(Openings, AScannerInTheStoreyAboveSeesNothingBelow) {
+  // Only the upper room holds a scanner place: the lower one is looked at from made-up places.
+  Scene scene = room_with(window);
+  add_reveal(scene, window);
+  scene.floor(0, 0, 4, 3, 2.8).ceiling(0, 0, 4, 3, 5.3).walls({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, 0, 2.8, 5.3);
+  const auto layout = laid_out(seen_from(scene.planes(), {{2, 1.5, 4.3}}));
+  ASSERT_EQ(layout.building.rooms.size(), 2U);
+  EXPECT_EQ(layout.building.openings.size(), 1U);
+}
+
+}  // namespace
+}  // namespace atrium::layout
