@@ -7,39 +7,19 @@
 #include "modules/floorplan/building_walls.hpp"
 #include "modules/floorplan/regions.hpp"
 #include "modules/floorplan/walls.hpp"
+#include "modules/types/building_rules.hpp"
 
 namespace atrium::floorplan {
 namespace {
 
 constexpr double joint = 0.004;  // metres: gaps between bodies of walls that are closed
 
-void check(const Building& building, const FromBuilding::Params& params) {
+void check_input(const Building& building, const FromBuilding::Params& params) {
   if (params.min_thickness > params.max_thickness)
     throw Error(
         fmt::format("min_thickness ({} m) is above max_thickness ({} m)", params.min_thickness, params.max_thickness),
         "walls thinner than the first or thicker than the second are not drawn: swap them");
-  const auto bad = [](const char* what, std::size_t i, const char* problem) {
-    throw Error(fmt::format("{} {} of the building {}", what, i, problem));
-  };
-  const auto storeys = static_cast<std::int32_t>(building.storeys.size());
-  if (!building.origin.allFinite()) throw Error("the building's origin is not finite");
-  for (std::size_t i = 0; i < building.vertices.size(); ++i)
-    if (!building.vertices[i].allFinite()) bad("vertex", i, "is not finite");
-  for (std::size_t i = 0; i < building.rooms.size(); ++i) {
-    if (building.rooms[i].storey < 0 || building.rooms[i].storey >= storeys) bad("room", i, "is in no storey");
-    for (const auto& p : building.rooms[i].outline)
-      if (!p.allFinite()) bad("room", i, "has a corner that is not finite");
-  }
-  for (std::size_t i = 0; i < building.faces.size(); ++i) {
-    const BuildingFace& face = building.faces[i];
-    if (face.storey < 0 || face.storey >= storeys) bad("face", i, "is in no storey");
-    if (face.outline.size() < 3) bad("face", i, "has fewer than three corners");
-    for (const auto v : face.outline)
-      if (v >= building.vertices.size()) bad("face", i, "has a corner that is not there");
-    for (const auto& hole : face.holes)
-      for (const auto v : hole)
-        if (v >= building.vertices.size()) bad("face", i, "has a corner that is not there");
-  }
+  check(building);
 }
 
 /// The building in the plan's frame, relative to the plan's origin; sets the plan's frame.
@@ -55,21 +35,7 @@ Building placed(const FromBuilding::In& in, FloorPlan& plan) {
   if ((up - Eigen::Vector3d::UnitZ()).norm() > level)
     plan.to_plan.rotation = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   plan.to_plan.translation = plan.origin - plan.to_plan.rotation * plan.origin;
-  Building result = transformed(source, chained(back, plan.to_plan));
-  const Eigen::Vector3d shift = result.origin - plan.origin;
-  result.origin = plan.origin;
-  for (auto& v : result.vertices) v += shift;
-  for (auto& storey : result.storeys) storey.elevation += shift.z();
-  for (auto& face : result.faces) face.plane.offset -= face.plane.normal.dot(shift);
-  for (auto& room : result.rooms) {
-    for (auto& p : room.outline) p += shift;
-    for (auto& hole : room.holes)
-      for (auto& p : hole) p += shift;
-  }
-  for (auto& opening : result.openings)
-    for (auto* outline : {&opening.outline_a, &opening.outline_b})
-      for (auto& p : *outline) p += shift;
-  return result;
+  return with_origin(transformed(source, chained(back, plan.to_plan)), plan.origin);
 }
 
 PlanRing from_above(const std::vector<Eigen::Vector3d>& ring) {
@@ -119,10 +85,10 @@ PlanStorey storey_of(const Building& building, std::int32_t index, const std::ve
     number[r] = static_cast<std::int32_t>(storey.rooms.size());
     storey.rooms.push_back({room.name, rooms[r], room.height});
   }
-  constexpr double parallel_angle = 3, merge_distance = 0.001, min_length = 0.01;
+  constexpr double merge_distance = 0.001, min_length = 0.01;
   storey.walls = walls_of(
       wall_faces(building, index, params.cut_height, rooms),
-      {params.min_thickness, params.max_thickness, parallel_angle, params.corner_gap, merge_distance, min_length});
+      {params.min_thickness, params.max_thickness, wall_parallel_angle, params.corner_gap, merge_distance, min_length});
   storey.openings = plan_openings(building, index, rooms, number);
   interrupt(storey.walls, storey.openings);
   std::vector<PlanRing> outlines, in_floor, overhead;
@@ -141,7 +107,7 @@ PlanStorey storey_of(const Building& building, std::int32_t index, const std::ve
 }  // namespace
 
 FromBuilding::Out FromBuilding::run(const In& in, const Params& params, Context& context) {
-  check(*in.building, params);
+  check_input(*in.building, params);
   Out out;
   const Building building = placed(in, out.plan);
   std::vector<PlanPolygon> rooms;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "modules/io/json_text.hpp"
+#include "modules/types/building_rules.hpp"
 #include "modules/types/ground_truth.hpp"
 
 namespace atrium::io {
@@ -27,70 +28,6 @@ Json json_of(const std::vector<std::vector<Eigen::Vector3d>>& rings) {
   for (const auto& ring : rings) list.push_back(json_of(ring));
   return list;
 }
-
-/// Tells where a building holds what no file should.
-class Check {
- public:
-  explicit Check(const Building& building) : building_(building) {}
-
-  void run(const Eigen::Vector3d& up) {
-    finite(building_.origin.allFinite() && up.allFinite(), "origin", 0);
-    for (std::size_t i = 0; i < building_.vertices.size(); ++i) finite(building_.vertices[i].allFinite(), "vertex", i);
-    for (std::size_t i = 0; i < building_.storeys.size(); ++i)
-      finite(std::isfinite(building_.storeys[i].elevation + building_.storeys[i].height), "storey", i);
-    for (std::size_t i = 0; i < building_.rooms.size(); ++i) room(building_.rooms[i], i);
-    for (std::size_t i = 0; i < building_.faces.size(); ++i) face(building_.faces[i], i);
-    for (std::size_t i = 0; i < building_.openings.size(); ++i) opening(building_.openings[i], i);
-    for (std::size_t i = 0; i < building_.walls.size(); ++i) wall(building_.walls[i], i);
-  }
-
- private:
-  static void finite(bool is, const char* what, std::size_t index) {
-    if (!is) throw Error(fmt::format("{} {} of the building has a number that is not finite", what, index));
-  }
-  static void index(std::int64_t value, std::int64_t least, std::size_t count, const char* what, std::size_t i,
-                    const char* of) {
-    if (value < least || value >= static_cast<std::int64_t>(count))
-      throw Error(fmt::format("{} {} of the building names {} {} of {}", what, i, of, value, count),
-                  "they are counted from 0");
-  }
-  void corners(const Ring& ring, std::size_t i) const {
-    if (ring.size() < 3) throw Error(fmt::format("face {} of the building has fewer than three corners", i));
-    for (const auto v : ring) index(v, 0, building_.vertices.size(), "face", i, "vertex");
-  }
-  static void places(const std::vector<Eigen::Vector3d>& ring, const char* what, std::size_t i) {
-    for (const auto& p : ring) finite(p.allFinite(), what, i);
-  }
-
-  void room(const BuildingRoom& room, std::size_t i) const {
-    finite(std::isfinite(room.area + room.height + room.volume), "room", i);
-    places(room.outline, "room", i);
-    for (const auto& hole : room.holes) places(hole, "room", i);
-    index(room.storey, 0, building_.storeys.size(), "room", i, "storey");
-    for (const auto f : room.faces) index(f, 0, building_.faces.size(), "room", i, "face");
-  }
-  void face(const BuildingFace& face, std::size_t i) const {
-    finite(face.plane.normal.allFinite() && std::isfinite(face.plane.offset + face.observed + face.residual), "face",
-           i);
-    index(face.storey, 0, building_.storeys.size(), "face", i, "storey");
-    index(face.room, -1, building_.rooms.size(), "face", i, "room");
-    corners(face.outline, i);
-    for (const auto& hole : face.holes) corners(hole, i);
-  }
-  void opening(const BuildingOpening& opening, std::size_t i) const {
-    finite(std::isfinite(opening.thickness), "opening", i);
-    places(opening.outline_a, "opening", i);
-    places(opening.outline_b, "opening", i);
-    for (const auto r : {opening.room_a, opening.room_b}) index(r, -1, building_.rooms.size(), "opening", i, "room");
-    for (const auto f : {opening.face_a, opening.face_b}) index(f, -1, building_.faces.size(), "opening", i, "face");
-  }
-  void wall(const BuildingWall& wall, std::size_t i) const {
-    finite(std::isfinite(wall.thickness + wall.area), "wall", i);
-    for (const auto f : {wall.face_a, wall.face_b}) index(f, 0, building_.faces.size(), "wall", i, "face");
-  }
-
-  const Building& building_;
-};
 
 Json room_to_json(const BuildingRoom& room) {
   Json json{{"name", room.name},
@@ -229,7 +166,8 @@ std::int32_t last_of(const JsonField& list) { return static_cast<std::int32_t>(l
 }  // namespace
 
 std::string building_to_json(const Building& building, const Eigen::Vector3d& up) {
-  Check(building).run(up);
+  check(building);
+  if (!up.allFinite()) throw Error("what is up in the building has a number that is not finite");
   Json root{{"atrium_building", 1}, {"units", "m"}, {"up", json_of(up)}, {"origin", json_of(building.origin)}};
   for (const char* list : {"storeys", "rooms", "faces", "openings", "walls"}) root[list] = Json::array();
   for (const auto& storey : building.storeys)

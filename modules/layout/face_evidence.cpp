@@ -91,6 +91,7 @@ FaceEvidence EvidenceFinder::gather(std::size_t index) const {
   constexpr double noise_levels = 3;
   const BuildingFace& face = building_.faces[index];
   FaceEvidence evidence;
+  if (face.room < 0) return evidence;
   const RoomView& view = views_[static_cast<std::size_t>(face.room)];
   if (view.places.empty()) return evidence;
   evidence.frame = upright_frame(face.plane, building_.vertices[face.outline[0]]);
@@ -165,6 +166,7 @@ void EvidenceFinder::find_ways(const BuildingFace& face, FaceEvidence& evidence)
 void EvidenceFinder::look_through(std::size_t index, FaceEvidence& evidence) const {
   constexpr double grazing = 0.15;  // such views of a wall see nothing through it
   constexpr double blind = 0.5;     // metres around a scanner where its tripod, dust and false echoes are dense
+  if (!evidence.looked_at()) return;
   const BuildingFace& face = building_.faces[index];
   const RoomView& view = views_[static_cast<std::size_t>(face.room)];
   FaceMask& mask = evidence.mask;

@@ -36,12 +36,13 @@ struct RoomView {
   std::vector<std::size_t> sensors;  ///< of the cloud; empty: the places are made up
 };
 
-/// Gathers the evidence of one face after the other (see layout.openings). Safe to use from several threads.
+/// Gathers the evidence of one face after the other (see layout.openings). Building and cloud have one origin. Safe to
+/// use from several threads.
 class EvidenceFinder {
  public:
   EvidenceFinder(const Building& building, const Cloud& cloud, const Openings::Params& params);
 
-  /// Points and mask: which squares are solid, which hidden.
+  /// Points and mask: which squares are solid, which hidden. Faces of no room are not looked at.
   FaceEvidence gather(std::size_t face) const;
   /// Turns hidden squares that were in sight, or through which points were seen, into holes.
   void look_through(std::size_t face, FaceEvidence& evidence) const;

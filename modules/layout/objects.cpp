@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "modules/geometry/plane_frame.hpp"
+#include "modules/types/building_rules.hpp"
 
 namespace atrium::layout {
 namespace {
@@ -78,7 +79,6 @@ class Sorting {
   Sorting(const Building& building, const Objects::Params& params)
       : building_(building), params_(params), rooms_(building.rooms.size()) {
     for (const auto& face : building.faces) {
-      check(face);
       std::vector<std::vector<Eigen::Vector3d>> rings{places(face.outline)};
       for (const auto& hole : face.holes) rings.push_back(places(hole));
       faces_.push_back(slab_of(plane_of(face, rings[0]), rings, params.distance, params.distance, params.distance));
@@ -94,12 +94,6 @@ class Sorting {
   }
 
  private:
-  void check(const BuildingFace& face) const {
-    const auto there = [&](std::uint32_t v) { return v < building_.vertices.size(); };
-    bool good = face.outline.size() >= 3 && std::all_of(face.outline.begin(), face.outline.end(), there);
-    for (const auto& hole : face.holes) good = good && std::all_of(hole.begin(), hole.end(), there);
-    if (!good) throw Error(fmt::format("face {} of the building has corners that are not there", faces_.size()));
-  }
   std::vector<Eigen::Vector3d> places(const std::vector<std::uint32_t>& ring) const {
     std::vector<Eigen::Vector3d> result;
     result.reserve(ring.size());
@@ -115,7 +109,7 @@ class Sorting {
   }
 
   void add_to_room(const BuildingFace& face) {
-    if (face.room < 0 || static_cast<std::size_t>(face.room) >= rooms_.size()) return;
+    if (face.room < 0) return;
     RoomSpace& room = rooms_[static_cast<std::size_t>(face.room)];
     for (const auto v : face.outline) room.box.extend(building_.vertices[v]);
     if (face.surface == SurfaceClass::wall) return;
@@ -130,9 +124,7 @@ class Sorting {
   }
 
   void add_reveal(const BuildingOpening& opening) {
-    if (opening.outline_a.size() < 3 || opening.face_a < 0 ||
-        static_cast<std::size_t>(opening.face_a) >= building_.faces.size())
-      return;
+    if (opening.outline_a.size() < 3 || opening.face_a < 0) return;
     const Plane plane = plane_of(building_.faces[static_cast<std::size_t>(opening.face_a)], opening.outline_a);
     const double depth = opening.thickness > 0 ? opening.thickness : params_.reveal_depth;
     reveals_.push_back(
@@ -177,6 +169,7 @@ class Sorting {
 
 Objects::Out Objects::run(const In& in, const Params& params, Context& context) {
   const Cloud& cloud = *in.structure->primitives->cloud;
+  check(*in.building);
   const Sorting sorting(*in.building, params);
   const Eigen::Vector3d shift = cloud.origin - in.building->origin;
   constexpr std::size_t chunk_size = 16384;

@@ -6,14 +6,17 @@
 
 #include "modules/layout/opening_pairs.hpp"
 #include "modules/layout/wall_pairs.hpp"
+#include "modules/types/building_rules.hpp"
+
 namespace atrium::layout {
 
 Openings::Out Openings::run(const In& in, const Params& params, Context& context) {
-  Out out{*in.building};
-  Building& building = out.building;
+  check(*in.building);
+  const Cloud& cloud = *in.structure->primitives->cloud;
+  Building building = with_origin(*in.building, cloud.origin);
+  building.openings.clear();
   building.walls = wall_pairs(building, params.max_thickness);
-  const PlanePrimitives& planes = *in.structure->primitives;
-  const EvidenceFinder finder(building, *planes.cloud, params);
+  const EvidenceFinder finder(building, cloud, params);
   const auto for_each_face = [&](const auto& work) {
     context.parallel_for(
         building.faces.size(),
@@ -36,6 +39,12 @@ Openings::Out Openings::run(const In& in, const Params& params, Context& context
   };
   context.info(fmt::format("{} doors, {} windows, {} slab openings; {} walls seen from both sides", count("door"),
                            count("window"), count("slab"), building.walls.size()));
+  Building relative;  // the openings alone, to the building's own origin
+  relative.origin = building.origin;
+  relative.openings = std::move(building.openings);
+  Out out{*in.building};
+  out.building.walls = std::move(building.walls);
+  out.building.openings = with_origin(std::move(relative), out.building.origin).openings;
   return out;
 }
 

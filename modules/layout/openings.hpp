@@ -24,9 +24,11 @@ namespace atrium::layout {
 /// - Rectangles of two faces back to back that lie over each other are one opening: it joins their rooms, and has the
 ///   thickness of the wall; each side is where more points say so.
 ///
-/// The wall pairs (two faces back to back at most max_thickness apart, with their overlap) are written too. No random
-/// numbers. Source: occlusion reasoning after A. Adan, D. Huber, 3D reconstruction of interior wall surfaces under
-/// occlusion and clutter, 3DIMPVT 2011, without learned openings.
+/// The wall pairs (two faces back to back at most max_thickness apart, with their overlap) are written too. Faces of no
+/// room have no openings. The building and the cloud may have different origins. Errors: an index in the building of
+/// what is not there, a face of fewer than three corners, a number that is not finite. No random numbers. Source:
+/// occlusion reasoning after A. Adan, D. Huber, 3D reconstruction of interior wall surfaces under occlusion and
+/// clutter, 3DIMPVT 2011, without learned openings.
 struct Openings {
   static constexpr std::string_view type = "layout.openings";
   static constexpr std::string_view summary = "Finds doors, windows and slab openings where faces were seen through.";

@@ -2,18 +2,57 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/multi_polygon.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "modules/geometry/plane_frame.hpp"
 #include "modules/layout/face_rings.hpp"
+#include "modules/types/building_rules.hpp"
 
 namespace atrium::layout {
 namespace {
+
+namespace bg = boost::geometry;
+using Point = bg::model::d2::point_xy<double>;
+using Polygon = bg::model::polygon<Point, false, false>;  // counter-clockwise, open
 
 Eigen::AlignedBox2d box_in(const Building& building, const BuildingFace& face, const PlaneFrame& frame) {
   Eigen::AlignedBox2d box;
   for (const auto v : face.outline) box.extend(frame.to_plane(building.vertices[v]));
   return box;
+}
+
+Polygon polygon_in(const Building& building, const BuildingFace& face, const PlaneFrame& frame) {
+  const auto append = [&](const Ring& corners, auto& ring) {
+    for (const auto v : corners) {
+      const Eigen::Vector2d p = frame.to_plane(building.vertices[v]);
+      bg::append(ring, Point(p.x(), p.y()));
+    }
+  };
+  Polygon result;
+  append(face.outline, result.outer());
+  for (const auto& hole : face.holes) append(hole, result.inners().emplace_back());
+  bg::correct(result);  // seen from behind it runs the other way
+  return result;
+}
+
+/// What two polygons have in common.
+struct Shared {
+  double area = 0;
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
+};
+Shared shared_of(const Polygon& a, const Polygon& b) {
+  bg::model::multi_polygon<Polygon> both;
+  bg::intersection(a, b, both);
+  Shared result{bg::area(both), {}};
+  if (!(result.area > 0)) return result;
+  const auto centroid = bg::return_centroid<Point>(both);
+  result.centroid = {centroid.x(), centroid.y()};
+  return result;
 }
 
 }  // namespace
@@ -38,7 +77,8 @@ bool face_contains(const Building& building, const BuildingFace& face, const Eig
 }
 
 std::vector<BuildingWall> wall_pairs(const Building& building, double max_thickness) {
-  constexpr double opposite = -0.98, least_thickness = 0.02, least_area = 0.1;
+  constexpr double least_thickness = 0.02, least_area = 0.1;
+  const double opposite = -std::cos(wall_parallel_angle * std::numbers::pi / 180);
   std::vector<BuildingWall> result;
   for (std::size_t a = 0; a < building.faces.size(); ++a) {
     const BuildingFace& front = building.faces[a];
@@ -47,12 +87,14 @@ std::vector<BuildingWall> wall_pairs(const Building& building, double max_thickn
     for (std::size_t b = a + 1; b < building.faces.size(); ++b) {
       const BuildingFace& back = building.faces[b];
       if (front.plane.normal.dot(back.plane.normal) > opposite) continue;
-      const Eigen::AlignedBox2d both = box.intersection(box_in(building, back, frame));
-      if (both.isEmpty() || both.volume() < least_area) continue;
-      const Eigen::Vector3d middle = frame.to_space(both.center());
-      const double thickness = -back.plane.signed_distance(middle);  // the back looks away from the front's plane
+      const Eigen::AlignedBox2d boxes = box.intersection(box_in(building, back, frame));
+      if (boxes.isEmpty() || boxes.volume() < least_area) continue;
+      const Shared shared = shared_of(polygon_in(building, front, frame), polygon_in(building, back, frame));
+      if (shared.area < least_area) continue;
+      // The back looks away from the front's plane.
+      const double thickness = -back.plane.signed_distance(frame.to_space(shared.centroid));
       if (thickness < least_thickness || thickness > max_thickness) continue;
-      result.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), thickness, both.volume()});
+      result.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), thickness, shared.area});
     }
   }
   return result;

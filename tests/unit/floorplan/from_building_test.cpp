@@ -199,11 +199,11 @@ TEST(FromBuilding, BrokenBuildingsAreErrors) {
     return "no error";
   };
   EXPECT_EQ(error([](auto&) {}), "no error");
-  EXPECT_EQ(error([](auto& b) { b.vertices[2].y() = NAN; }), "vertex 2 of the building is not finite");
-  EXPECT_EQ(error([](auto& b) { b.faces[4].storey = 1; }), "face 4 of the building is in no storey");
-  EXPECT_EQ(error([](auto& b) { b.faces[4].outline[2] = 16; }),
-            "face 4 of the building has a corner that is not there");
-  EXPECT_EQ(error([](auto& b) { b.rooms[1].storey = -1; }), "room 1 of the building is in no storey");
+  EXPECT_EQ(error([](auto& b) { b.vertices[2].y() = NAN; }),
+            "vertex 2 of the building has a number that is not finite");
+  EXPECT_EQ(error([](auto& b) { b.faces[4].storey = 1; }), "face 4 of the building names storey 1 of 1");
+  EXPECT_EQ(error([](auto& b) { b.faces[4].outline[2] = 16; }), "face 4 of the building names vertex 16 of 16");
+  EXPECT_EQ(error([](auto& b) { b.rooms[1].storey = -1; }), "room 1 of the building names storey -1 of 1");
   FromBuilding::Params params;
   params.min_thickness = 1;
   EXPECT_THROW(drawn(test::BoxBuilding::two_rooms(), {}, nullptr, params), Error);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "modules/types/building_rules.hpp"
 #include "tests/support/rooms.hpp"
 #include "tests/unit/layout/chain.hpp"
 
@@ -182,6 +183,51 @@ TEST(Openings, AScannerInTheStoreyAboveSeesNothingBelow) {
   const auto layout = laid_out(seen_from(scene.planes(), {{2, 1.5, 4.3}}));
   ASSERT_EQ(layout.building.rooms.size(), 2U);
   EXPECT_EQ(layout.building.openings.size(), 1U);
+}
+
+/// The openings of a building whose places are the same, but written relative to another origin.
+std::vector<BuildingOpening> openings_of(const Layout& layout, const Building& building) {
+  Context context;
+  return Openings::run({input(building), input(layout.structure)}, {}, context).building.openings;
+}
+
+TEST(Openings, TheBuildingMayHaveAnotherOriginThanTheCloud) {
+  Scene scene = two_rooms(door, door);
+  scatter(scene, {4, 1, 0}, {0, 0, 2}, {0.12, 0, 0});
+  scatter(scene, {4, 1.9, 0}, {0, 0, 2}, {0.12, 0, 0});
+  const auto layout = laid_out(scene.planes());
+  ASSERT_EQ(layout.building.openings.size(), 1U);
+  const Vector3d shift(100, -40, 8);
+  const auto openings = openings_of(layout, with_origin(layout.building, layout.building.origin + shift));
+  ASSERT_EQ(openings.size(), 1U);
+  const auto &here = openings[0], &there = layout.building.openings[0];
+  EXPECT_EQ(here.kind, there.kind);
+  EXPECT_NEAR(here.thickness, there.thickness, 1e-9);
+  ASSERT_EQ(here.outline_b.size(), there.outline_b.size());
+  for (std::size_t i = 0; i < here.outline_b.size(); ++i) {
+    EXPECT_LT((here.outline_a[i] + shift - there.outline_a[i]).norm(), 1e-9);
+    EXPECT_LT((here.outline_b[i] + shift - there.outline_b[i]).norm(), 1e-9);
+  }
+}
+
+TEST(Openings, FacesOfNoRoomHaveNone) {
+  Scene scene = room_with(window);
+  add_reveal(scene, window);
+  const auto layout = laid_out(scene.planes());
+  ASSERT_EQ(layout.building.openings.size(), 1U);
+  Building building = layout.building;
+  building.faces[static_cast<std::size_t>(building.openings[0].face_a)].room = -1;
+  EXPECT_TRUE(openings_of(layout, building).empty());
+}
+
+TEST(Openings, BrokenBuildingsAreErrors) {
+  const auto layout = laid_out(room_with(window).planes());
+  Building building = layout.building;
+  building.faces[1].room = 7;
+  EXPECT_THROW(openings_of(layout, building), Error);
+  building = layout.building;
+  building.faces[2].outline[0] = 1000;
+  EXPECT_THROW(openings_of(layout, building), Error);
 }
 
 }  // namespace
