@@ -5,9 +5,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
+#include <utility>
 
+#include "graph/api/error.hpp"
 #include "modules/layout/face_rings.hpp"
 #include "modules/layout/raster.hpp"
+#include "modules/layout/room_cells.hpp"
 #include "modules/layout/room_surface.hpp"
 
 namespace atrium::layout {
@@ -24,27 +29,65 @@ class Assembly {
   }
 
   Building run() {
-    std::int32_t rooms = 0;
-    for (const auto& storey : cells_.storeys) {
+    std::vector<StoreyCells> storeys = cells_.storeys;
+    for (auto& storey : storeys) {
       building_.storeys.push_back({storey.floor_height, storey.ceiling_height - storey.floor_height});
-      for (const auto& cell : storey.cells) rooms = std::max(rooms, cell.room + 1);
+      cut_pinched_cells(storey);
+      split_crossing_steps(storey);
     }
-    building_.rooms.resize(static_cast<std::size_t>(rooms));
-    for (std::size_t s = 0; s < cells_.storeys.size(); ++s) add_storey(static_cast<std::int32_t>(s));
+    warn_of_lost_rooms(storeys);
+    building_.rooms.resize(static_cast<std::size_t>(number_rooms(storeys)));
+    if (building_.rooms.empty()) refuse();
+    for (std::size_t s = 0; s < storeys.size(); ++s) add_storey(storeys[s], static_cast<std::int32_t>(s));
     return std::move(building_);
   }
 
  private:
-  void add_storey(std::int32_t index) {
-    StoreyCells storey = cells_.storeys[static_cast<std::size_t>(index)];
-    cut_pinched_cells(storey);
-    split_crossing_steps(storey);
-    std::vector<std::int32_t> rooms;
+  static std::set<std::int32_t> rooms_of(const StoreyCells& storey) {
+    std::set<std::int32_t> rooms;
     for (const auto& cell : storey.cells)
-      if (cell.room >= 0) rooms.push_back(cell.room);
-    std::sort(rooms.begin(), rooms.end());
-    rooms.erase(std::unique(rooms.begin(), rooms.end()), rooms.end());
-    for (const auto room : rooms) add_room(storey, index, room);
+      if (cell.room >= 0) rooms.insert(cell.room);
+    return rooms;
+  }
+
+  void warn_of_lost_rooms(const std::vector<StoreyCells>& cut) const {
+    for (std::size_t s = 0; s < cut.size(); ++s) {
+      const auto left = rooms_of(cut[s]);
+      for (const auto room : rooms_of(cells_.storeys[s])) {
+        if (left.count(room) != 0) continue;
+        double area = 0;
+        for (const auto& cell : cells_.storeys[s].cells) area += cell.room == room ? cell.area : 0;
+        context_.warn(fmt::format(
+            "storey {}: a room of {:.1f} m2 is left out: its ceiling lies nowhere above its floor", s, area));
+      }
+    }
+  }
+
+  /// There is no room: says what the scan lacks.
+  [[noreturn]] void refuse() const {
+    bool inside = false, floors = false, ceilings = false, walls = false;
+    for (const auto& storey : cells_.storeys) {
+      inside = inside || !rooms_of(storey).empty();
+      const auto seen = [](const CellSurface& surface) { return surface.primitive >= 0; };
+      floors = floors || std::any_of(storey.floors.begin(), storey.floors.end(), seen);
+      ceilings = ceilings || std::any_of(storey.ceilings.begin(), storey.ceilings.end(), seen);
+      walls = walls || std::any_of(storey.lines.begin(), storey.lines.end(),
+                                   [](const CellLine& line) { return !line.primitives.empty(); });
+    }
+    std::string lacking;
+    for (const auto& [there, name] : {std::pair{floors, "floor"}, {ceilings, "ceiling"}, {walls, "wall"}})
+      if (!there) lacking += fmt::format("{}no {}", lacking.empty() ? "" : " and ", name);
+    if (lacking.empty()) lacking = "floors, ceilings and walls, but none of them around a space";
+    throw Error(
+        fmt::format("the scan shows no room: {} ({} found)",
+                    inside ? "the ceilings lie nowhere above the floors" : "nothing is inside", lacking),
+        "check that z points up and the lengths are metres, that normals look to where the scan was taken from, and "
+        "that the planes keep floor and ceiling (smaller min_points); layout.rooms can ask for less (`min_area`, "
+        "`min_cover`)");
+  }
+
+  void add_storey(const StoreyCells& storey, std::int32_t index) {
+    for (const auto room : rooms_of(storey)) add_room(storey, index, room);
   }
 
   void add_room(const StoreyCells& storey, std::int32_t index, std::int32_t room) {
@@ -55,22 +98,33 @@ class Assembly {
     const auto base = static_cast<std::uint32_t>(building_.vertices.size());
     building_.vertices.insert(building_.vertices.end(), surface.vertices.begin(), surface.vertices.end());
     for (const auto& source : surface.faces) {
-      BuildingFace face;
-      face.surface = source.key.surface;
-      face.storey = index;
-      face.room = room;
-      face.outline = moved(source.outline, base);
-      for (const auto& hole : source.holes) face.holes.push_back(moved(hole, base));
-      set_plane(storey, source.key, face);
       entry.faces.push_back(static_cast<std::int32_t>(building_.faces.size()));
-      building_.faces.push_back(std::move(face));
+      add_face(storey, source, index, room, base);
     }
-    for (const auto& p : surface.outline) entry.outline.emplace_back(p.x(), p.y(), storey.floor_height);
-    for (const auto& hole : surface.holes) {
-      entry.holes.emplace_back();
-      for (const auto& p : hole) entry.holes.back().emplace_back(p.x(), p.y(), storey.floor_height);
-    }
+    entry.outline = raised(surface.outline, storey.floor_height);
+    entry.holes.reserve(surface.holes.size());
+    for (const auto& hole : surface.holes) entry.holes.push_back(raised(hole, storey.floor_height));
     measure_room(entry);
+  }
+
+  void add_face(const StoreyCells& storey, const RoomFace& source, std::int32_t index, std::int32_t room,
+                std::uint32_t base) {
+    BuildingFace face;
+    face.surface = source.key.surface;
+    face.storey = index;
+    face.room = room;
+    face.outline = moved(source.outline, base);
+    face.holes.reserve(source.holes.size());
+    for (const auto& hole : source.holes) face.holes.push_back(moved(hole, base));
+    set_plane(storey, source.key, face);
+    building_.faces.push_back(std::move(face));
+  }
+
+  static std::vector<Eigen::Vector3d> raised(const std::vector<Eigen::Vector2d>& ring, double height) {
+    std::vector<Eigen::Vector3d> result;
+    result.reserve(ring.size());
+    for (const auto& p : ring) result.emplace_back(p.x(), p.y(), height);
+    return result;
   }
 
   static Ring moved(Ring ring, std::uint32_t base) {

@@ -16,7 +16,11 @@ namespace atrium::layout {
 /// A face knows its primitive, if one lies on its plane and looks the same way; without one it is inferred. `observed`
 /// is the share of the face's squares that hold points of such primitives, `residual` their RMS distance.
 ///
-/// Rooms are named "room 1" … in their order; volume, area and height are those of the closed surface.
+/// Where the ceiling comes down to the floor the room ends. What is cut in two that way is two rooms; a room of which
+/// nothing is left is left out, with a warning. Rooms are named "room 1" … in their order; volume, area and height are
+/// those of the closed surface.
+///
+/// Errors: cells without any room.
 struct Faces {
   static constexpr std::string_view type = "layout.faces";
   static constexpr std::string_view summary = "Makes the closed polygonal surface of each room from its cells.";

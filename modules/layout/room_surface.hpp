@@ -33,13 +33,7 @@ struct RoomSurface {
   std::vector<std::vector<Eigen::Vector2d>> holes;  ///< clockwise
 };
 
-/// Cuts cells in which the ceiling comes down to the floor: what is behind is no longer of the room.
-void cut_pinched_cells(StoreyCells& storey);
-
-/// Adds a vertex to each edge within a room over which the floors or ceilings of both sides cross.
-void split_crossing_steps(StoreyCells& storey);
-
-/// The closed surface of a room. Needs cut_pinched_cells, then split_crossing_steps.
+/// The closed surface of a room. Needs cut_pinched_cells, then split_crossing_steps (room_cells.hpp).
 RoomSurface room_surface(const StoreyCells& storey, std::int32_t room);
 
 }  // namespace atrium::layout

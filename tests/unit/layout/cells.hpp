@@ -8,6 +8,7 @@
 
 #include "graph/api/random.hpp"
 #include "modules/layout/arrangement.hpp"
+#include "modules/layout/room_cells.hpp"
 #include "modules/layout/room_surface.hpp"
 #include "modules/types/cell_complex.hpp"
 
