@@ -155,7 +155,7 @@ class Labelling {
   std::vector<std::size_t> labels_;
 };
 
-/// The height of a ceiling over a floor amidst a cell.
+/// The height of a ceiling over a floor at the mean of a cell's corners.
 double clearance(const StoreyCells& storey, const LayoutCell& cell, const CellSurface& floor,
                  const CellSurface& ceiling) {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();

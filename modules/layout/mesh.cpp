@@ -66,7 +66,7 @@ class Meshing {
       corners.insert(corners.end(), hole.begin(), hole.end());
       polygon.holes.push_back(flat(hole, frame));
     }
-    std::vector<std::uint32_t> vertices;  // of one class: a corner's colour is that of its face
+    std::vector<std::uint32_t> vertices;
     vertices.reserve(corners.size());
     for (const auto c : corners) vertices.push_back(shell_vertex(c, face.surface));
     for (const auto& t : clip_ears(polygon))
@@ -79,7 +79,7 @@ class Meshing {
     cut_out(f, frame, polygon, cuts);
   }
 
-  /// One vertex for each corner and class, so that rooms stay closed and colours do not run.
+  /// One vertex for each corner, so that rooms stay closed: it has the colour of the first face that uses it.
   std::uint32_t shell_vertex(std::uint32_t corner, SurfaceClass surface) {
     const auto [it, is_new] = shell_vertices_.emplace(corner, 0U);
     if (is_new) it->second = shell_.vertex(building_.vertices[corner], surface);

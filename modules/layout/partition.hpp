@@ -8,10 +8,8 @@ namespace atrium::layout {
 /// Cuts each storey into upright prisms along its walls, and measures what the scan says about each.
 ///
 /// - Lines: the walls of the storey, the largest first. A wall that runs within min_gap of a line is on that line;
-///   floors and ceilings join in the same way.
-/// Where
-///   two ceilings meet, or a ceiling meets the floor, and one of them is slanted, their meeting line is one too, as far
-///   as both were seen beside it.
+///   floors and ceilings join in the same way. Where two ceilings meet, or a ceiling meets the floor, and one of them
+///   is slanted, their meeting line is one too, as far as both were seen beside it.
 /// - Each line cuts the cells that it passes over its length and `extension` beyond: evidence carries a plane only so
 ///   far. A cell is cut from side to side, so lines end at others.
 /// - Coverage is counted in squares (`pixel`, or larger ones if the scan does not fill these): of a cell the share over

@@ -8,8 +8,9 @@ namespace atrium::layout {
 ///
 /// All terms are in square metres of surface, so no weight depends on the number of points:
 /// - A cell under a ceiling that was seen should be inside, one over a floor as well (ceiling_weight and floor_weight
-///   times the covered area); where neither was seen it should be outside (outside_weight times that area). In a storey
-///   whose ceiling was not scanned, the floor and what stands on it count for the ceiling.
+///   times the covered area); as far as no ceiling was seen over it, it should be outside (outside_weight times that
+///   area), whatever was seen of its floor. In a storey whose ceiling was not scanned (it shows less than three tenths
+///   of what the floor does), the floor, or what stands on it where that is more, counts for the ceiling.
 /// - A wall was seen from inside: the cell before it should be inside, the one behind it outside (wall_weight times its
 ///   area, if it reaches the ceiling), the latter less the more of floor or ceiling was seen there.
 /// - A border between inside and outside should be a wall that looks inside: its area that is none costs
@@ -17,8 +18,8 @@ namespace atrium::layout {
 ///   the wall goes on, hidden by what stands before it.
 ///
 /// Rooms are what hangs together, but not through a wall so thin that its two faces share a line; a room of less than
-/// min_area, or with less than min_cover of its floor and ceiling seen, is outside. Rooms are numbered by falling area,
-/// through all storeys.
+/// min_area is outside, and one with less than min_cover of its area seen: of each cell counts what covers most of it,
+/// floor, ceiling or points between them. Rooms are numbered by falling area, through all storeys.
 ///
 /// A scan without any room: a warning, all cells outside. Source: data terms after P. Labatut, J.-P. Pons, R. Keriven,
 /// Robust and efficient surface reconstruction from range data, CGF 28(8), 2009, and Oesau et al. 2014 (see
@@ -47,13 +48,14 @@ struct Rooms {
   static constexpr auto params = std::tuple{
       param(&Params::ceiling_weight, "ceiling_weight", unitless, within(0, 100), "Of a ceiling over a cell."),
       param(&Params::floor_weight, "floor_weight", unitless, within(0, 100), "Of a floor under a cell."),
-      param(&Params::outside_weight, "outside_weight", unitless, within(0, 100), "Of what shows neither."),
+      param(&Params::outside_weight, "outside_weight", unitless, within(0, 100), "Of what shows no ceiling."),
       param(&Params::wall_weight, "wall_weight", unitless, within(0, 100), "Of a wall before or behind a cell."),
       param(&Params::smoothness, "smoothness", unitless, within(0, 100), "Of borders where no wall was seen."),
       param(&Params::complexity, "complexity", unitless, within(0, 100), "Of all borders."),
       param(&Params::min_area, "min_area", square_metres, within(0, 1e6), "Smallest room."),
-      param(&Params::min_cover, "min_cover", ratio, within(0, 1),
-            "Least share of a room's floor and ceiling, together, that was seen.")};
+      param(
+          &Params::min_cover, "min_cover", ratio, within(0, 1),
+          "Least share of a room's area seen as floor, ceiling or anything between, whichever covers most of a cell.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -12,9 +12,8 @@ namespace atrium::layout {
 ///   above the other; or, where no ceiling was scanned, a floor above another one. Slabs divide storeys.
 /// - In each storey the largest up-facing plane (area) is the main floor. Floors are the up-facing planes of at least
 ///   min_area and min_width up to max_step over it, and those of half of its area with room to stand above.
-/// - Ceilings are down-facing planes of at least min_area and min_width, level ones min_clearance or more over the main
-/// floor,
-///   slanted ones that rise to that height.
+/// - Ceilings are down-facing planes of at least min_area and min_width, level ones min_clearance or more over the
+///   main floor, slanted ones that rise to that height.
 /// - Walls are all upright planes of at least min_wall_area that are min_wall_length long: the sides of cupboards too.
 ///   A wall stands in the storey that it overlaps most.
 ///

@@ -129,10 +129,10 @@ void PointColumns::copy(std::size_t to, const PointColumns& other, std::size_t f
   nz[to] = other.nz[from];
 }
 
-MortonOrder::MortonOrder(const Cloud& cloud, double cell, const Context& context, Normals normals, double shift)
-    : shift(shift), centre(sampled_median(cloud)) {
+MortonOrder::MortonOrder(const Cloud& cloud, double cell, const Context& context, Normals normals, double back)
+    : shift(back), centre(sampled_median(cloud)) {
   std::vector<Item> items(cloud.size());
-  const Eigen::Vector3d corner = centre - Eigen::Vector3d::Constant(shift);
+  const Eigen::Vector3d corner = centre - Eigen::Vector3d::Constant(back);
   context.parallel_for(items.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       items[i] = {morton_code(cloud.points[i].cast<double>() - corner, cell), static_cast<std::uint32_t>(i)};

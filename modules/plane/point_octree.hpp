@@ -38,8 +38,8 @@ struct Tolerance {
 /// of the points: a far outlier costs nothing (what lies beyond 2²⁰ cells is sorted as if it lay there).
 struct MortonOrder {
   enum class Normals { no, yes };
-  /// `shift`: the cells are moved back by so much along all axes, metres; the frame stays.
-  MortonOrder(const Cloud& cloud, double cell, const Context& context, Normals normals = Normals::no, double shift = 0);
+  /// `back`: the cells are moved back by so much along all axes, metres; the frame stays.
+  MortonOrder(const Cloud& cloud, double cell, const Context& context, Normals normals = Normals::no, double back = 0);
 
   double shift;
   Eigen::Vector3d centre;            ///< of the columns' frame, in the cloud's frame

@@ -11,8 +11,8 @@ namespace atrium::plane {
 ///    Neighbouring regions that are one plane are merged.
 /// 3. A region's connected components (as in plane.ransac) are patches; each point goes to the nearest patch.
 /// 4. The same again (`passes`) with the points that are left, for small surfaces in voxels that larger ones had
-/// spoilt. Voxels of sparse scans, wider than the least, are moved by half an edge every other time: then the two faces
-/// of a wall thicker than half an edge stand in different ones.
+///    spoilt. Voxels of sparse scans, wider than the least, are moved by half an edge every other time: then the two
+///    faces of a wall thicker than half an edge stand in different ones.
 /// 5. Least-squares fit of each patch to its points.
 ///
 /// Normals point to the side from which the surface was seen: the mean of the points' normals where the cloud has them;
