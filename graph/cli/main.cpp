@@ -1,6 +1,10 @@
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
+#include "graph/api/suggest.hpp"
 #include "graph/cli/verbs.hpp"
 #include "graph/pipeline/registry.hpp"
 
@@ -15,6 +19,26 @@ void print_error(const std::string& message, const std::string& help) {
 
 namespace {
 
+// What was not understood, and whose help says what would be.
+int report_usage(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& words) {
+  const CLI::App* verb = &app;
+  std::string name = "atrium";
+  while (!verb->get_subcommands().empty()) {
+    verb = verb->get_subcommands().front();
+    name += " " + verb->get_name();
+  }
+  const auto verbs = verb->get_subcommands([](const CLI::App*) { return true; });
+  const auto word = std::find_if(words.begin(), words.end(), [](const auto& w) { return !w.starts_with("-"); });
+  if (verb == &app && word != words.end()) {
+    const auto names = atrium::words_of(verbs, [](const CLI::App* v) { return v->get_name(); });
+    const std::string meant = atrium::did_you_mean(*word, names);
+    atrium::cli::print_error("unknown command '" + *word + "'", meant.empty() ? "atrium --help" : meant);
+  } else {
+    atrium::cli::print_error(error.what(), name + " --help");
+  }
+  return atrium::cli::usage;
+}
+
 int report(const char* message, const std::string& help, int code) {
   atrium::cli::print_error(message, help);
   return code;
@@ -26,6 +50,7 @@ int main(int argc, char** argv) {
   namespace cli = atrium::cli;
   CLI::App app("Atrium: raw indoor point clouds to light planar models, as a graph of nodes.", "atrium");
   app.require_subcommand(1);
+  app.set_version_flag("--version", "atrium " ATRIUM_VERSION);
   int exit_code = cli::ok;
   cli::add_check(app, exit_code);
   cli::add_nodes(app, exit_code);
@@ -42,7 +67,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& success) {  // --help
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    return report(error.what(), "atrium --help", cli::usage);
+    return report_usage(app, error, {argv + 1, argv + argc});
   } catch (const atrium::PluginError& error) {
     return report(error.what(), error.help(), cli::plugin);
   } catch (const atrium::Error& error) {

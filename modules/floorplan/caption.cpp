@@ -15,6 +15,12 @@ double Caption::width() const {
   return name_width() + 3 + font_width(about(), size);
 }
 
+double origin_height(const FloorPlan& plan) {
+  constexpr double level = 0.985;  // the cosine of 10 degrees
+  const Eigen::Vector3d up = plan.to_plan.rotation.row(2);
+  return up.z() > level ? plan.origin.z() : up.dot(plan.origin);
+}
+
 Caption caption_of(const PlanStorey& storey, double origin_z) {
   Caption caption;
   caption.name = fmt::format("Storey {}", storey.index);

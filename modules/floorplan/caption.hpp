@@ -20,6 +20,10 @@ struct Caption {
   double height() const { return stacked ? 9 + 2 * line : 9; }
 };
 
+/// The height of the plan's origin: its z in the input's frame where that is level to within 10 degrees, else (a scan
+/// whose y points up, say) how high it lies over the input's origin.
+double origin_height(const FloorPlan& plan);
+
 /// Of a storey whose elevation counts from `origin_z`, in one line.
 Caption caption_of(const PlanStorey& storey, double origin_z);
 

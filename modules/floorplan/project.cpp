@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "modules/floorplan/caption.hpp"
 #include "modules/floorplan/median.hpp"
 #include "modules/floorplan/rooms.hpp"
 #include "modules/floorplan/walls.hpp"
@@ -184,7 +185,7 @@ Project::Out Project::run(const In& in, const Params& params, Context& context) 
     while (end < surfaces.size() && surfaces[end].storey == surfaces[begin].storey) ++end;
     context.check_cancelled();
     plan.storeys.push_back(
-        storey_of({surfaces.begin() + begin, surfaces.begin() + end}, plan.origin.z(), params, context));
+        storey_of({surfaces.begin() + begin, surfaces.begin() + end}, origin_height(plan), params, context));
     for (auto& room : plan.storeys.back().rooms) room.name = fmt::format("Room {}", ++number);
   }
   return {std::move(plan)};

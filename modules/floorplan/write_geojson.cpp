@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "modules/floorplan/caption.hpp"
+
 namespace atrium::floorplan {
 namespace {
 
@@ -100,7 +102,7 @@ void add_storey(Features& features, const PlanStorey& storey, double origin_z) {
 
 WriteGeojson::Out WriteGeojson::run(const In& in, const Params& params, Context& context) {
   Features features(*in.plan);
-  for (const auto& storey : in.plan->storeys) add_storey(features, storey, in.plan->origin.z());
+  for (const auto& storey : in.plan->storeys) add_storey(features, storey, origin_height(*in.plan));
   if (in.plan->storeys.empty()) context.warn("the plan is empty: " + params.path.path + " has no features");
   Json root{{"type", "FeatureCollection"},
             {"name", params.crs.empty() ? "floor plan (local coordinates, not WGS 84)" : "floor plan"},

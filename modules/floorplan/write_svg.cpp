@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "modules/floorplan/caption.hpp"
 #include "modules/floorplan/drawn_storey.hpp"
 
 namespace atrium::floorplan {
@@ -35,7 +36,7 @@ WriteSvg::Out WriteSvg::run(const In& in, const Params& params, Context& context
   if (params.storey >= 0 && storeys.empty())
     throw Error(fmt::format("the plan has no storey {}", params.storey),
                 fmt::format("it has {}, counted from 0; -1 draws all", plan.storeys.size()));
-  const Sheet sheet = arranged(storeys, plan.origin.z(), params.paper, params.scale);
+  const Sheet sheet = arranged(storeys, origin_height(plan), params.paper, params.scale);
   TitleBlock block{params.title, note_of(plan, turn), 0, storeys.size(), 0, -turn};
   SvgCanvas canvas(sheet.size.x(), sheet.size.y(), params.title);
   canvas.raw(hatch);

@@ -55,6 +55,19 @@ outputs: {planes: cloud.cloud}
 )");
 };
 
+TEST_F(CommandLine, AWordThatIsNoCommandIsSaid) {
+  const auto typo = run("rnu pipeline.yaml");
+  EXPECT_EQ(typo.code, 2);
+  EXPECT_NE(typo.err.find("unknown command 'rnu'"), std::string::npos) << typo.err;
+  EXPECT_NE(typo.err.find("did you mean 'run'?"), std::string::npos) << typo.err;
+  const auto option = run("sweep submit --shrads 3");
+  EXPECT_EQ(option.code, 2);
+  EXPECT_NE(option.err.find("atrium sweep submit --help"), std::string::npos) << option.err;
+  const auto version = run("--version");
+  EXPECT_EQ(version.code, 0);
+  EXPECT_EQ(version.out.rfind("atrium ", 0), 0U) << version.out;
+}
+
 TEST_F(CommandLine, CheckSaysOk) {
   const Result result = run("check good.yaml -s planes.angle='3 deg' -s distance=1cm");
   EXPECT_EQ(result.code, 0);

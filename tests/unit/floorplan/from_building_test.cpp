@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <map>
 
+#include "modules/floorplan/caption.hpp"
 #include "modules/floorplan/regions.hpp"
 #include "tests/support/box_building.hpp"
 #include "tests/unit/floorplan/buildings.hpp"
@@ -32,6 +33,18 @@ double length_of(const PlanStorey& storey, bool both_faces) {
   for (const auto& wall : storey.walls)
     if ((wall.thickness > 0) == both_faces) sum += (wall.to - wall.from).norm();
   return sum;
+}
+
+TEST(FloorplanOriginHeight, IsAlongTheInputsUp) {
+  FloorPlan plan;
+  plan.origin = Eigen::Vector3d(500000, -5, 312);
+  EXPECT_EQ(origin_height(plan), 312);
+  // A little tilt far from the origin does not move it; where y points up, y is the height.
+  plan.to_plan.rotation = Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  EXPECT_EQ(origin_height(plan), 312);
+  plan.to_plan.rotation =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  EXPECT_NEAR(origin_height(plan), -5, 1e-9);
 }
 
 TEST(FromBuilding, RoomsAreThoseOfTheBuilding) {
