@@ -36,7 +36,7 @@ std::string read_text(const fs::path& file) {
 
 /// A file in the work folder, or ids of variants.
 WorkerTask task_of(const fs::path& folder, const std::vector<std::string>& names) {
-  const fs::path file = folder / work_folder / names.front();
+  const fs::path file = folder / farm_folder / names.front();
   if (names.size() == 1 && fs::is_regular_file(file)) return read_task(read_text(file), file.string());
   WorkerTask task;
   for (const auto& name : names) task.parts.push_back({name, {}});
@@ -51,7 +51,7 @@ int work_here(const Options& options) {
   Registry registry;
   const fs::path folder = fs::absolute(options.folder).lexically_normal();
   WorkerOptions worker{
-      folder, options.build, options.skipped, folder / work_folder / "scratch" / options.tasks.front(), {}};
+      folder, options.build, options.skipped, folder / farm_folder / "scratch" / options.tasks.front(), {}};
   const auto cache = open_cache(options.cache);
   worker.run.cache = cache.get();
   worker.run.threads = options.threads;
@@ -93,7 +93,7 @@ void add_sweep_work(CLI::App& sweep, int& exit_code) {
   auto* verb = sweep.add_subcommand("work", "What the processes of a sweep run; started by the other verbs.");
   const auto options = std::make_shared<Options>();
   verb->add_option("DIR", options->folder, "the sweep's folder")->required();
-  verb->add_option("TASK", options->tasks, "a file in DIR/work, or ids of variants")->required();
+  verb->add_option("TASK", options->tasks, "a file in DIR/farm, or ids of variants")->required();
   verb->add_flag("--here", options->here, "in this process");
   verb->add_option("--skip", options->skipped, "ID/NODE: not this node, nor what depends on it")
       ->allow_extra_args(false);

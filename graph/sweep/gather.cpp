@@ -43,7 +43,7 @@ class Gatherer {
  public:
   Gatherer(const fs::path& out, const Submission& submission, const SweepPlan& plan)
       : out_(out),
-        work_(out / work_folder / submission.id),
+        work_(out / farm_folder / submission.id),
         submission_(submission),
         plan_(plan),
         now_(now_in(work_)) {}

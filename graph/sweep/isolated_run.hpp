@@ -26,7 +26,7 @@ struct IsolateOptions {
 };
 
 /// In the sweep's folder: what the workers are told, and what they leave.
-inline constexpr std::string_view work_folder = "work";
+inline constexpr std::string_view farm_folder = "farm";
 /// What a worker printed, in its variant's folder.
 inline constexpr std::string_view worker_log = "worker.log";
 

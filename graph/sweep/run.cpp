@@ -55,7 +55,7 @@ RunResult run_together(const Pipeline& pipeline, const SweepOptions& options, Re
 RunResult run_isolated(const SweepPlan& plan, const std::vector<bool>& wanted, const std::string& build,
                        const SweepOptions& options, const std::function<VariantName(const SweepVariant&)>& name,
                        ProgressSink& progress, std::vector<VariantResult>& results) {
-  const fs::path work = options.out / work_folder;
+  const fs::path work = options.out / farm_folder;
   std::error_code ignored;
   fs::remove_all(work, ignored);
   fs::create_directories(work, ignored);

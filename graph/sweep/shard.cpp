@@ -66,7 +66,7 @@ void Journal::alive() {
 void run_shard(const fs::path& out, const std::string& name, const std::string& program, int threads,
                const std::string& build, const std::atomic<bool>* cancel, Registry& registry, ProgressSink& progress) {
   const Submission submission = read_submission(out);
-  const WorkerTask task = read_task_file(out / work_folder / name);
+  const WorkerTask task = read_task_file(out / farm_folder / name);
   if (build != submission.build)
     throw Error("the program or its plugins are not those that the sweep was submitted with",
                 "submit it again: what is done is not done again");
@@ -83,7 +83,7 @@ void run_shard(const fs::path& out, const std::string& name, const std::string& 
   }
   std::vector<bool> wanted;  // a shard that is started a second time goes on where it was
   for (const auto& done : done_variants(out, plan, submission.build)) wanted.push_back(shared || !done);
-  Journal journal(out / work_folder / (name + ".events"));
+  Journal journal(out / farm_folder / (name + ".events"));
   journal.write("", {{"e", "shard"}, {"time", epoch_seconds()}, {"host", host_name()}, {"process", ::getpid()}});
   std::unique_ptr<Cache> cache;
   if (!submission.cache.empty()) cache = std::make_unique<Cache>(CacheOptions{submission.cache});

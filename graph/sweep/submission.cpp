@@ -160,11 +160,11 @@ void write_submission(const fs::path& out, const Submission& s) {
       {"build", s.build},   {"engine", s.engine},        {"variants", s.variants}, {"arguments", s.arguments},
       {"cache", s.cache},   {"memory", s.memory},        {"timeout", s.timeout},   {"time", s.time},
       {"shared", s.shared}, {"shards", s.shards}};
-  write_file(out / work_folder / record_name, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(out / farm_folder / record_name, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 Submission read_submission(const fs::path& out) {
-  const fs::path file = out / work_folder / record_name;
+  const fs::path file = out / farm_folder / record_name;
   std::ifstream stream(file);
   const Json json = Json::parse(stream, nullptr, false);
   try {
@@ -199,13 +199,13 @@ SubmitScripts prepare_submission(const SweepFile& sweep, const SweepPlan& plan, 
   submission.shards = std::min(count, options.shards > 0 ? options.shards : usual_shards);
   const auto shared = shared_tasks(plan, wanted, submission.shards, options.cache);
   submission.shared = shared.size();
-  const Call call{submission, options, options.out / work_folder / submission.id};
+  const Call call{submission, options, options.out / farm_folder / submission.id};
   SubmitScripts scripts = submission.engine == "slurm" ? slurm(call) : parallel(call);
   scripts.variants = count;
   if (options.dry || count == 0) return scripts;
   const SweepFolder folder(options.out, sweep);
   std::error_code ignored;
-  fs::remove_all(options.out / work_folder, ignored);
+  fs::remove_all(options.out / farm_folder, ignored);
   fs::create_directories(call.work, ignored);
   begin_variants(sweep, plan, wanted, options.out);
   write_tasks(call.work, "shared", shared);

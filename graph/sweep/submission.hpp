@@ -5,7 +5,7 @@
 namespace atrium {
 
 /// A sweep that is run by shards on an engine that users have: what all of its processes must know, in
-/// DIR/work/submission.json. Beside it, in DIR/work/ID: the tasks `shared-1` … and `shard-1` … (WorkerTask), job.sh and
+/// DIR/farm/submission.json. Beside it, in DIR/farm/ID: the tasks `shared-1` … and `shard-1` … (WorkerTask), job.sh and
 /// submit.sh; then what the shards tell (Journal), and what they print.
 struct Submission {
   std::string id;                     ///< of the time: tasks of an earlier submission are not those of this one

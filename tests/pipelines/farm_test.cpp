@@ -194,8 +194,8 @@ class Farm : public SweepFolderTest {
   }
   /// The newest (and only) submission's folder.
   fs::path work(const std::string& out) {
-    return folder / out / "work" /
-           json::parse(read_text(folder / out / "work/submission.json")).at("id").get<std::string>();
+    return folder / out / "farm" /
+           json::parse(read_text(folder / out / "farm/submission.json")).at("id").get<std::string>();
   }
   /// A queue that never comes to an end: sbatch takes the jobs, and nobody begins with them.
   ProcessOptions without_machines() {

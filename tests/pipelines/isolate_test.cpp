@@ -33,7 +33,7 @@ TEST_F(Isolated, LeavesTheSameBytes) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.err, "");
     expect_same(left(out), expected);
-    EXPECT_FALSE(fs::exists(folder / out / "work"));
+    EXPECT_FALSE(fs::exists(folder / out / "farm"));
   }
   // What one way of running has done, the other takes as done, and nothing is left to do; nor if the cache has all.
   EXPECT_NE(isolated("together").err.find("(6 before)"), std::string::npos);

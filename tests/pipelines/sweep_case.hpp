@@ -27,9 +27,8 @@ nodes:
 outputs: {first: first.value, number: second.value, random: random.value, text: second.text}
 )");
   }
-  ProcessResult atrium(std::vector<std::string> arguments) {
+  ProcessResult atrium(std::vector<std::string> arguments, ProcessOptions options = {}) {
     arguments.insert(arguments.begin(), {ATRIUM_PROGRAM, "sweep"});
-    ProcessOptions options;
     options.folder = folder.path();
     options.environment.push_back("ATRIUM_PLUGIN_PATH=" ATRIUM_TRIAL_PLUGIN);
     return run_process(arguments, options);

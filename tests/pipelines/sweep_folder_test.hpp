@@ -1,20 +1,13 @@
 #pragma once
-#include <gtest/gtest.h>
-
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "tests/support/process.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/pipelines/sweep_case.hpp"
 
 namespace atrium::test {
 
-using nlohmann::json;
-namespace fs = std::filesystem;
-
 /// A sweep whose variants share a beginning, run in all ways.
-class SweepFolderTest : public testing::Test {
+class SweepFolderTest : public Sweep {
  protected:
   SweepFolderTest() {
     write_text(folder / "base.yaml", R"(atrium: 1
@@ -30,13 +23,6 @@ nodes:
   cloud: {type: io.write_cloud, in: {cloud: second.cloud}, params: {path: cloud.ply}}
 outputs: {sum: second.sum, random: random.value, text: random.text}
 )");
-  }
-  void sweep(const std::string& rest) { write_text(folder / "s.yaml", "atrium: 1\nsweep: base.yaml\n" + rest); }
-  ProcessResult atrium(std::vector<std::string> arguments, ProcessOptions options = {}) {
-    arguments.insert(arguments.begin(), {ATRIUM_PROGRAM, "sweep"});
-    options.folder = folder.path();
-    options.environment.push_back("ATRIUM_PLUGIN_PATH=" ATRIUM_TRIAL_PLUGIN);
-    return run_process(arguments, options);
   }
   /// By label.
   std::map<std::string, json> results(const std::string& out) {
@@ -56,7 +42,7 @@ outputs: {sum: second.sum, random: random.value, text: random.text}
       if (!entry.is_regular_file()) continue;
       const std::string name = entry.path().lexically_relative(folder / out).string();
       const std::string file = entry.path().filename().string();
-      if (name.starts_with("work/") || file == "variant.json" || file == "trace.json" || file == "worker.log") continue;
+      if (name.starts_with("farm/") || file == "variant.json" || file == "trace.json" || file == "worker.log") continue;
       found[name] = file == "sheet.png" ? "" : read_text(entry.path());  // its stamp names the folder
       if (file != "result.json" && file != "manifest.json") continue;
       json all = json::parse(found[name]);
@@ -72,8 +58,11 @@ outputs: {sum: second.sum, random: random.value, text: random.text}
   static void expect_same(const std::map<std::string, std::string>& left,
                           const std::map<std::string, std::string>& right) {
     EXPECT_EQ(left.size(), right.size());
-    for (const auto& [file, text] : right)
-      if (left.contains(file)) EXPECT_EQ(left.at(file), text) << file;
+    for (const auto& [file, text] : right) {
+      const auto same = left.find(file);
+      ASSERT_NE(same, left.end()) << file;
+      EXPECT_EQ(same->second, text) << file;
+    }
   }
   /// Processes that have the test's folder in their command line.
   std::size_t processes() {
@@ -86,8 +75,6 @@ outputs: {sum: second.sum, random: random.value, text: random.text}
     }
     return found;
   }
-
-  TemporaryFolder folder;
 };
 
 }  // namespace atrium::test
