@@ -45,6 +45,8 @@ const Case& scanned(std::int64_t points) {
     const auto scene = input(synth::Flat::run({}, {}, context).scene);
     synth::Scan::Params params;
     params.points = points;
+    params.outside = false;
+    params.windows = synth::Scan::Windows::open;
     auto out = synth::Scan::run({scene}, params, context);
     place->second = {input(std::move(out.cloud)), input(std::move(out.mesh)), input(detailed_mesh(*scene, 100000))};
   }

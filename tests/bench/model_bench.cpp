@@ -23,6 +23,8 @@ void bake(benchmark::State& state) {
   Context context;
   synth::Scan::Params params;
   params.points = state.range(0);
+  params.outside = false;
+  params.windows = synth::Scan::Windows::open;
   const auto scan = synth::Scan::run({input(synth::Flat::run({}, {}, context).scene)}, params, context);
   const auto cloud = input(scan.cloud);
   const auto mesh = input(scan.mesh);

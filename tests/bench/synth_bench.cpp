@@ -30,3 +30,4 @@ void scan(benchmark::State& state, Scan::Pattern pattern) {
 BENCHMARK(flat)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scan, spherical, Scan::Pattern::spherical)->SIZES;
 BENCHMARK_CAPTURE(scan, uniform_area, Scan::Pattern::uniform_area)->SIZES;
+BENCHMARK_CAPTURE(scan, hand_held, Scan::Pattern::hand_held)->SIZES;

@@ -17,6 +17,7 @@ synth::Scan::Out simulated_scan(Context& context) {
   params.points = 300000;
   params.pattern = synth::Scan::Pattern::uniform_area;
   params.positions = 6;
+  params.sensors = true;
   params.yaw = 23;
   params.tilt = 2.5;
   return synth::Scan::run({input(synth::Flat::run({}, {}, context).scene)}, params, context);

@@ -18,6 +18,9 @@ class Golden : public testing::Test {
     const auto scene = input(synth::Room::run({}, {}, context).scene);
     synth::Scan::Params params;
     params.points = 40000;
+    params.outside = false;
+    params.windows = synth::Scan::Windows::open;
+    params.angular_noise = params.mixed_pixels = 0;
     params.yaw = 15;
     params.offset = {500000, 5400000, 100};
     scan = synth::Scan::run({scene}, params, context);

@@ -34,8 +34,11 @@ Scan::Params exact(std::int64_t points, Scan::Pattern pattern = Scan::Pattern::s
   Scan::Params params;
   params.points = points;
   params.pattern = pattern;
-  params.noise = 0;
+  params.noise = params.angular_noise = params.mixed_pixels = 0;
   params.outliers = 0;
+  params.outside = false;
+  params.windows = Scan::Windows::open;
+  params.sensors = true;
   return params;
 }
 Scan::Out scan(const Input<SimulatedScene>& scene, const Scan::Params& params, std::uint64_t seed = 1) {
@@ -191,6 +194,7 @@ TEST(SynthScan, ShuffledPointsAreTheSamePoints) {
   Scan::Params params;
   params.points = 20000;
   params.normals = true;
+  params.sensors = true;
   const auto ordered = scan(flat(), params).cloud;
   params.shuffle = true;
   const auto shuffled = scan(flat(), params).cloud;
@@ -255,15 +259,16 @@ TEST(SynthScan, SameBytesWithAnyNumberOfThreads) {
   Scan::Params params;
   params.points = 100000;
   params.drift = 0.02;
+  params.people = 2;
   std::set<std::string> hashes;
   for (const std::size_t threads : {1, 2, 4}) {
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    for (const auto pattern : {Scan::Pattern::spherical, Scan::Pattern::uniform_area}) {
+    for (const auto pattern : {Scan::Pattern::spherical, Scan::Pattern::uniform_area, Scan::Pattern::hand_held}) {
       params.pattern = pattern;
       hashes.insert(content_hash(scan(flat(), params).cloud));
     }
   }
-  EXPECT_EQ(hashes.size(), 2U);
+  EXPECT_EQ(hashes.size(), 3U);
   EXPECT_EQ(hashes.count(content_hash(scan(flat(), params, 2).cloud)), 0U);
 }
 
