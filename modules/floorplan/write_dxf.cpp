@@ -159,9 +159,7 @@ WriteDxf::Out WriteDxf::run(const In& in, const Params& params, Context& context
       view.add(box.high);
     }
   const double turn = wall_turn(plan), mm = params.scale / 1000.0;
-  const auto path = context.output(params.path.path);
-  AtomicFile file(path);
-  DxfDrawing drawing(file, plan.origin.head<2>(), all, view);
+  DxfDrawing drawing(plan.origin.head<2>(), all, view);
   for (const auto& storey : storeys) {
     StoreyDrawing entities(drawing, suffix_of(storey), mm);
     entities.areas(storey);
@@ -170,7 +168,9 @@ WriteDxf::Out WriteDxf::run(const In& in, const Params& params, Context& context
     entities.labels(storey, turn);
     if (params.dimensions) entities.dimensions(storey, turn);
   }
-  drawing.finish();
+  const auto path = context.output(params.path.path);
+  AtomicFile file(path);
+  file.write(std::move(drawing).finish());
   file.commit();
   context.wrote(path);
   return {};

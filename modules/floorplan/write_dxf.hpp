@@ -23,7 +23,7 @@ namespace atrium::floorplan {
 ///
 /// Polygons are closed LWPOLYLINEs, holes have one of their own. If the plan has several storeys, each has its own
 /// layers: A-WALL-S0, A-WALL-S1, … (0 the lowest); they lie above each other, as in the building. Coordinates have all
-/// digits of a double; text that is not ASCII is written as \U+XXXX, as the format wants.
+/// digits of a double; text is in the code page Windows-1252, other characters are written as \U+XXXX.
 ///
 /// A plan without storeys gives a valid file without entities, and a warning. Errors: no such storey; a folder or disk
 /// that cannot be written; then no file is there.

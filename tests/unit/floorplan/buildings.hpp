@@ -79,21 +79,26 @@ inline FloorPlan plan_of(const Mesh& mesh, const Project::Params& params = {}, s
   return plan;
 }
 
-/// two_rooms with a door between them, a window in the first room's lower wall and holes in its floor and ceiling.
-inline FloorPlan with_openings() {
-  FloorPlan plan = plan_of(two_rooms());
+/// Adds to a storey of two_rooms a door between them, a window in the first room's lower wall and holes in its floor
+/// and ceiling.
+inline void add_openings(FloorPlan& plan, std::size_t storey) {
   const Eigen::Vector2d origin = plan.origin.head<2>();
   const auto add = [&](PlanOpening opening) {
     opening.from -= origin;
     opening.to -= origin;
     for (auto& p : opening.outline) p -= origin;
-    plan.storeys[0].openings.push_back(std::move(opening));
+    plan.storeys.at(storey).openings.push_back(std::move(opening));
   };
   // Room 1 (12 m²) lies at the door's left.
   add({"door", {4.06, 0.5}, {4.06, 1.4}, {{4, 0.5}, {4.12, 0.5}, {4.12, 1.4}, {4, 1.4}}, 0, 1, 0, 2.1, 0.12});
   add({"window", {1, 0}, {2.5, 0}, {}, 0, -1, 0.9, 1.2, 0});
   add({"slab", {}, {}, {{1, 1}, {2, 1}, {2, 2}, {1, 2}}, 0, -1, 0, 0, 0});
   add({"slab", {}, {}, {{2.5, 1}, {3.5, 1}, {3.5, 2}, {2.5, 2}}, 0, -1, 2.5, 0, 0.3});
+}
+
+inline FloorPlan with_openings() {
+  FloorPlan plan = plan_of(two_rooms());
+  add_openings(plan, 0);
   return plan;
 }
 

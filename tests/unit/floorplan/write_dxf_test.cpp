@@ -2,8 +2,12 @@
 #include "modules/floorplan/write_dxf.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "modules/floorplan/dxf_drawing.hpp"
@@ -14,32 +18,6 @@ namespace atrium::floorplan {
 namespace {
 
 using nlohmann::json;
-
-constexpr auto reader = R"(
-import json, sys
-import ezdxf
-doc = ezdxf.readfile(sys.argv[1])
-audit = doc.audit()
-entities = []
-for e in doc.modelspace():
-    entry = {"type": e.dxftype(), "layer": e.dxf.layer}
-    if e.dxftype() == "LWPOLYLINE":
-        entry["closed"] = bool(e.closed)
-        entry["points"] = [[p[0], p[1]] for p in e.get_points()]
-    elif e.dxftype() == "LINE":
-        entry["points"] = [list(e.dxf.start), list(e.dxf.end)]
-    elif e.dxftype() == "ARC":
-        entry["points"] = [list(e.dxf.center), list(e.start_point), list(e.end_point)]
-        entry["radius"] = e.dxf.radius
-    elif e.dxftype() == "TEXT":
-        entry["text"] = e.dxf.text
-        entry["height"] = e.dxf.height
-        entry["rotation"] = e.dxf.rotation
-        entry["points"] = [list(e.dxf.align_point)]
-    entities.append(entry)
-print(json.dumps({"errors": [e.message for e in audit.errors], "units": doc.header["$INSUNITS"],
-                  "version": doc.dxfversion, "view": list(doc.viewports.get("*Active")[0].dxf.center), "layers": [l.dxf.name for l in doc.layers], "entities": entities}))
-)";
 
 // A Python that has ezdxf: Debian's own may not be the first on the path.
 std::string python() {
@@ -56,10 +34,12 @@ class Dxf : public testing::Test {
 
   json read_back(const FloorPlan& plan, const WriteDxf::Params& params = {}) {
     WriteDxf::run({input(plan)}, params, context);
-    const auto result = test::run_process({python(), "-c", reader, file.string()});
+    const auto result =
+        test::run_process({python(), ATRIUM_SOURCE_DIR "/tests/unit/floorplan/read_dxf.py", file.string()});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     const json root = json::parse(result.out);
-    EXPECT_TRUE(root["errors"].empty()) << root["errors"];
+    for (const auto* complaint : {"errors", "fixes", "logged", "structure"})
+      EXPECT_EQ(root[complaint], json::array()) << complaint;
     return root;
   }
 };
@@ -181,6 +161,59 @@ TEST_F(Dxf, AnEmptyPlanIsAValidFile) {
   EXPECT_EQ(host->warnings.size(), 1U);
 }
 
+/// Two storeys of two rooms, with openings, dimensions, and names in several languages, far from the origin.
+FloorPlan real_plan() {
+  MeshBuilder b;
+  for (const double low : {0.0, 2.8}) {
+    b.room(0, 0, 4, 3, low, low + 2.5);
+    b.room(4.12, 0, 7, 3, low, low + 2.5);
+    ++b.storey;
+  }
+  b.mesh.origin = {500000.123, 5400000.456, 300};
+  FloorPlan plan = plan_of(b.mesh);
+  for (std::size_t storey = 0; storey < 2; ++storey) {
+    add_openings(plan, storey);
+    for (auto& opening : plan.storeys[storey].openings) {  // add_openings means the mesh's own coordinates
+      const Eigen::Vector2d shift = b.mesh.origin.head<2>();
+      opening.from += shift;
+      opening.to += shift;
+      for (auto& p : opening.outline) p += shift;
+    }
+  }
+  plan.storeys[0].rooms[0].name = "K\u00FCche / \u0141azienka";
+  plan.storeys[0].rooms[1].name = "\u53A8\u623F \U0001F373";
+  return plan;
+}
+
+TEST_F(Dxf, ARealDrawingNeedsNoRepair) {
+  if (python().empty()) GTEST_SKIP() << "python3-ezdxf is not installed";
+  const json root = read_back(real_plan());  // which looks at the audit
+  EXPECT_EQ(root["code_page"], "ANSI_1252");
+  EXPECT_GT(root["entities"].size(), 60U);
+  std::vector<std::string> names;
+  for (const auto& text : on(root, "A-AREA-IDEN-S0", "TEXT")) names.push_back(text["text"]);
+  for (const std::string name : {"K\u00FCche / \u0141azienka", "\u53A8\u623F ?", "12.00 m\u00B2", "h 2.50 m"})
+    EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+  for (const std::string suffix : {"-S0", "-S1"}) {
+    EXPECT_EQ(on(root, "A-DOOR" + suffix, "ARC").size(), 1U);
+    EXPECT_EQ(on(root, "A-GLAZ" + suffix, "LINE").size(), 2U);
+    EXPECT_EQ(on(root, "A-ANNO-DIMS" + suffix, "TEXT").size(), 8U);
+  }
+  // The extents hold all that is drawn, and not much more.
+  for (int k = 0; k < 2; ++k) {
+    double least = 1e9, most = 0;
+    for (const auto& entity : root["entities"])
+      for (const auto& p : entity["points"]) {
+        least = std::min(least, p[k].get<double>());
+        most = std::max(most, p[k].get<double>());
+      }
+    EXPECT_LE(root["extents"][0][k], least);
+    EXPECT_GE(root["extents"][0][k], least - 1);
+    EXPECT_GE(root["extents"][1][k], most);
+    EXPECT_LE(root["extents"][1][k], most + 1);
+  }
+}
+
 TEST_F(Dxf, TheSamePlanGivesTheSameBytes) {
   WriteDxf::run({input(plan_of(two_rooms()))}, {}, context);
   const std::string first = test::read_text(file);
@@ -199,10 +232,63 @@ TEST_F(Dxf, WrongStoreysAndFoldersAreErrors) {
   EXPECT_THROW(WriteDxf::run({input(plan_of(two_rooms()))}, params, context), Error);
 }
 
-TEST_F(Dxf, TextIsAscii) {
-  EXPECT_EQ(dxf_text("12 m\u00B2"), "12 m\\U+00B2");
-  EXPECT_EQ(dxf_text("K\u00FCche \u20AC"), "K\\U+00FCche \\U+20AC");
-  EXPECT_EQ(dxf_text("a\nb\x01"), "ab");
+// Of the file as of its beginnings under another name.
+TEST_F(Dxf, WhatCannotBeWrittenLeavesNothingBehind) {
+  FloorPlan plan = plan_of(two_rooms());
+  plan.storeys[0].rooms[0].polygon.outline[1].x() = std::nan("");
+  EXPECT_THROW(WriteDxf::run({input(plan)}, {}, context), Error);
+  EXPECT_TRUE(std::filesystem::is_empty(host->folder.path()));
+
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{2000, before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_THROW(WriteDxf::run({input(plan_of(two_rooms()))}, {}, context), Error);
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_TRUE(std::filesystem::is_empty(host->folder.path()));
+}
+
+TEST_F(Dxf, NumbersHaveAllDigitsAndNoExponents) {
+  for (const auto& [value, text] : std::vector<std::pair<double, std::string>>{{0, "0.0"},
+                                                                               {-4, "-4.0"},
+                                                                               {0.1, "0.1"},
+                                                                               {5400000.4560000002, "5400000.456"},
+                                                                               {1.5e-7, "0.00000015"},
+                                                                               {-2e-5, "-0.00002"},
+                                                                               {1e20, "100000000000000000000.0"}}) {
+    DxfGroups groups;
+    groups.real(40, value);
+    EXPECT_EQ(groups.all(), " 40\n" + text + "\n");
+    EXPECT_EQ(std::stod(text), value);
+  }
+  DxfGroups groups;
+  EXPECT_THROW(groups.real(40, INFINITY), Error);
+}
+
+TEST_F(Dxf, AnArcsExtentsHoldItsBulge) {
+  if (python().empty()) GTEST_SKIP() << "python3-ezdxf is not installed";
+  DxfDrawing drawing({10, 20}, {{"A", 1, 25}}, {});
+  const double r = std::sqrt(0.5);
+  drawing.arc("A", {0, 0}, {r, -r}, {-r, r});  // over 0 and 90 degrees
+  test::write_text(file, std::move(drawing).finish());
+  const auto result =
+      test::run_process({python(), ATRIUM_SOURCE_DIR "/tests/unit/floorplan/read_dxf.py", file.string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json extents = json::parse(result.out)["extents"];
+  const double expected[2][2] = {{10 - r, 20 - r}, {11, 21}};
+  for (int i = 0; i < 2; ++i)
+    for (int k = 0; k < 2; ++k) EXPECT_NEAR(extents[i][k], expected[i][k], 1e-9);
+}
+
+TEST_F(Dxf, TextIsInItsCodePage) {
+  EXPECT_EQ(dxf_text("12 m\u00B2"), "12 m\xB2");
+  EXPECT_EQ(dxf_text("K\u00FCche \u20AC\u0178"),
+            "K\xFC"
+            "che \x80\x9F");
+  EXPECT_EQ(dxf_text("\u0141azienka \u53A8 \U0001F373"), "\\U+0141azienka \\U+53A8 ?");
+  EXPECT_EQ(dxf_text("a\nb\x01\u0085"), "ab");
   EXPECT_EQ(dxf_text("\xFF\xC3"), "??");
 }
 
