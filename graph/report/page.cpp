@@ -162,7 +162,7 @@ std::string escaped(const std::string& text) {
 std::string read_page(const fs::path& page) {
   if (!fs::exists(page))
     throw Error("the page that reports are written into is not there: " + page.string(),
-                "npm bundles it when Atrium is built: ./share/install-packages --report, then ./share/build");
+                "esbuild bundles it when Atrium is built: ./share/install-packages, then ./share/build");
   return read_text(page);
 }
 

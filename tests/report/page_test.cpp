@@ -15,18 +15,17 @@ TEST(ReportPage, ReadsQuantitiesAndPutsTicksAtRoundPlaces) {
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
 }
 
-TEST(ReportPage, IsLeftOutOfTheBuildWhereNpmIsLacking) {
+TEST(ReportPage, IsLeftOutOfTheBuildWhereEsbuildIsLacking) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "bin");
   for (const std::string tool : {"bash", "dirname", "rm", "env"})
     fs::create_symlink(run_process({"sh", "-c", "command -v " + tool + " | tr -d '\\n'"}).out,
                        folder / ("bin/" + tool));
   write_text(folder / "report.html", "of an earlier build");
-  const auto result =
-      run_process({"env", "PATH=" + (folder / "bin").string(), ATRIUM_SOURCE_DIR "/graph/report/web/build",
-                   (folder / "work").string(), (folder / "report.html").string()});
+  const auto result = run_process({"env", "PATH=" + (folder / "bin").string(),
+                                   ATRIUM_SOURCE_DIR "/graph/report/web/build", (folder / "report.html").string()});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("the report's page is not built: npm and Node.js are lacking"), std::string::npos)
+  EXPECT_NE(result.out.find("the report's page is not built: esbuild and libjs-three are lacking"), std::string::npos)
       << result.out;
   EXPECT_FALSE(fs::exists(folder / "report.html"));
 }

@@ -1,9 +1,10 @@
 // Models for the viewer: read, parted into layers by class, with their edges drawn.
-import { BufferAttribute, BufferGeometry, EdgesGeometry, LineBasicMaterial, LineSegments } from 'three';
-import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
+import { BufferAttribute, BufferGeometry, Color, EdgesGeometry, LineBasicMaterial, LineSegments } from 'three';
+import { GLTFLoader } from 'three-modules/loaders/GLTFLoader.js';
 import { parsePly } from './ply.js';
 
 const EDGE_LIMIT = 60000;  // triangles of a mesh whose edges are drawn
+const EDGE_COLOUR = new Color('#1c2530').convertSRGBToLinear();
 
 /** A model from its file: GLB, or PLY, whose z is up. */
 export async function parse(blob) {
@@ -13,7 +14,7 @@ export async function parse(blob) {
     group.rotation.x = -Math.PI / 2;
     return group;
   }
-  return (await new GLTFLoader().parseAsync(buffer, '')).scene;
+  return (await new Promise((resolve, reject) => { new GLTFLoader().parse(buffer, '', resolve, reject); })).scene;
 }
 
 const classOf = (mesh) => String(mesh.userData.class ?? mesh.parent?.userData.class ?? mesh.material.name ?? mesh.name).split(',')[0] || 'model';
@@ -28,7 +29,7 @@ export function prepare(group) {
     mesh.material.roughness = 1;
     const triangles = (mesh.geometry.index?.count ?? mesh.geometry.attributes.position.count) / 3;
     if (triangles > EDGE_LIMIT || mesh.userData.layer === 'object') continue;
-    const line = new LineSegments(outline(mesh.geometry), new LineBasicMaterial({ color: 0x1c2530, transparent: true, opacity: 0.55 }));
+    const line = new LineSegments(outline(mesh.geometry), new LineBasicMaterial({ color: EDGE_COLOUR, transparent: true, opacity: 0.55 }));
     line.userData = { layer: mesh.userData.layer, edges: true };
     mesh.material.polygonOffset = true;
     mesh.material.polygonOffsetFactor = mesh.material.polygonOffsetUnits = 1;

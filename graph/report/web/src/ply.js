@@ -1,5 +1,5 @@
 // Meshes in PLY (ascii and binary, little-endian), with the faces' property `class` and colours, as three's own reader has none.
-import { BufferAttribute, BufferGeometry, Group, Mesh, MeshStandardMaterial, DoubleSide, FrontSide, SRGBColorSpace, Color } from 'three';
+import { BufferAttribute, BufferGeometry, Group, Mesh, MeshStandardMaterial, DoubleSide, FrontSide, Color } from 'three';
 
 const SIZES = { char: 1, uchar: 1, int8: 1, uint8: 1, short: 2, ushort: 2, int16: 2, uint16: 2, int: 4, uint: 4, int32: 4, uint32: 4, float: 4, float32: 4, double: 8, float64: 8 };
 const CLASSES = ['object', 'wall', 'floor', 'ceiling'];
@@ -70,8 +70,8 @@ export function parsePly(buffer) {
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(positions, 3));
     geometry.computeVertexNormals();
-    const colour = new Color().setStyle(CLASS_COLOURS[name] ?? '#b5b5b5', SRGBColorSpace);
-    const mesh = new Mesh(geometry, new MeshStandardMaterial({ color: colour, roughness: 1, side: name === 'object' || name === 'model' ? DoubleSide : FrontSide }));
+    const colour = new Color(CLASS_COLOURS[name] ?? '#b5b5b5').convertSRGBToLinear();
+    const mesh = new Mesh(geometry, new MeshStandardMaterial({ color: colour, roughness: 1, metalness: 0, side: name === 'object' || name === 'model' ? DoubleSide : FrontSide }));
     mesh.userData.class = name;
     group.add(mesh);
   }

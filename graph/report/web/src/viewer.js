@@ -1,7 +1,7 @@
 // The model of a variant in 3D, and a second one beside it under the same camera.
-import { AmbientLight, Box3, Color, DirectionalLight, HemisphereLight, MathUtils, OrthographicCamera, PerspectiveCamera, Scene, Vector3,
+import { AmbientLight, Box3, Color, DirectionalLight, HemisphereLight, Math as MathUtils, OrthographicCamera, PerspectiveCamera, Scene, Vector3,
          WebGLRenderer } from 'three';
-import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { OrbitControls } from 'three-modules/controls/OrbitControls.js';
 import { fileOf } from './data.js';
 import { check, choice, h } from './dom.js';
 import { dispose, parse, prepare } from './models.js';
@@ -34,8 +34,8 @@ export function makeViewer(data, root) {
   let renderer = null, controls = null, camera = null, framed = false, request = 0;
   const scenes = [new Scene(), new Scene()];
   for (const scene of scenes) {
-    scene.add(new HemisphereLight(0xffffff, 0x8d8478, 1.6), new AmbientLight(0xffffff, 0.5));
-    const sun = new DirectionalLight(0xffffff, 1.7);
+    scene.add(new HemisphereLight(new Color('#ffffff'), new Color('#8d8478').convertSRGBToLinear(), 0.51), new AmbientLight(0xffffff, 0.16));
+    const sun = new DirectionalLight(0xffffff, 0.54);
     sun.position.set(2, 5, 3.3);
     scene.add(sun);
   }
@@ -45,9 +45,13 @@ export function makeViewer(data, root) {
   function start() {
     if (renderer) return true;
     try {
-      renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+      const context = canvas.getContext('webgl2', { antialias: true, preserveDrawingBuffer: true });
+      if (!context) throw new Error('no WebGL 2');
+      renderer = new WebGLRenderer({ canvas, context });
+      renderer.gammaOutput = true;
+      renderer.gammaFactor = 2.2;
     } catch {
-      message.textContent = 'This browser has no WebGL: models cannot be shown.';
+      message.textContent = 'This browser has no WebGL 2: models cannot be shown.';
       return false;
     }
     renderer.setScissorTest(true);
@@ -65,7 +69,7 @@ export function makeViewer(data, root) {
     controls?.dispose();
     camera = state.parallel ? new OrthographicCamera() : new PerspectiveCamera(40, 1, 0.05, 1000);
     controls = new OrbitControls(camera, canvas);
-    controls.listenToKeyEvents(canvas);
+    controls.screenSpacePanning = true;
     controls.addEventListener('change', draw);
     if (before) {
       camera.position.copy(before.position);
