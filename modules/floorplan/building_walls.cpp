@@ -219,6 +219,16 @@ std::vector<PlanOpening> plan_openings(const Building& building, std::int32_t st
   return result;
 }
 
+void mark_inferred(const Building& building, std::vector<PlanWall>& walls) {
+  constexpr double hardly = 0.1;  // share of a face's area
+  for (auto& wall : walls)
+    wall.inferred = std::all_of(wall.primitives.begin(), wall.primitives.end(), [&](std::int32_t f) {
+      if (!is_face(building, f)) return true;
+      const BuildingFace& face = building.faces[static_cast<std::size_t>(f)];
+      return face.primitive < 0 || face.observed < hardly;
+    });
+}
+
 void interrupt(std::vector<PlanWall>& walls, const std::vector<PlanOpening>& openings) {
   std::vector<PlanWall> result;
   for (const auto& wall : walls) {

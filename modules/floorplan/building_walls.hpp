@@ -18,6 +18,9 @@ std::vector<WallFace> wall_faces(const Building& building, std::int32_t storey, 
 std::vector<PlanOpening> plan_openings(const Building& building, std::int32_t storey,
                                        const std::vector<PlanPolygon>& rooms, const std::vector<std::int32_t>& number);
 
+/// Marks the walls of whose faces none was seen on more than a tenth of its area.
+void mark_inferred(const Building& building, std::vector<PlanWall>& walls);
+
 /// Takes doors and windows out of the walls.
 void interrupt(std::vector<PlanWall>& walls, const std::vector<PlanOpening>& openings);
 

@@ -28,7 +28,7 @@ bool at_corner(const PlanStorey& storey, const PlanWall& wall, const Eigen::Vect
 Region behind_faces(const PlanStorey& storey, double width) {
   std::vector<PlanRing> bands, open;
   for (const auto& wall : storey.walls) {
-    if (wall.thickness > 0) continue;
+    if (wall.thickness > 0 || wall.inferred) continue;
     const Eigen::Vector2d along = (wall.to - wall.from).normalized();
     const Eigen::Vector2d aside = 0.5 * width * Eigen::Vector2d(along.y(), -along.x());
     const Eigen::Vector2d from = wall.from - (at_corner(storey, wall, wall.from) ? width : 0) * along;
@@ -58,7 +58,19 @@ void draw_walls(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey) {
   canvas.end_group();
   canvas.begin_group("fill=\"none\" stroke=\"#000\" stroke-width=\"0.5\" stroke-linecap=\"square\"");
   for (const auto& wall : storey.walls)
-    if (wall.thickness <= 0) pen.line(wall.from, wall.to);
+    if (wall.thickness <= 0 && !wall.inferred) pen.line(wall.from, wall.to);
+  canvas.end_group();
+  if (std::none_of(storey.walls.begin(), storey.walls.end(), [](const PlanWall& wall) { return wall.inferred; }))
+    return;
+  canvas.begin_group(
+      "class=\"inferred\" fill=\"#fff\" stroke=\"#000\" stroke-width=\"0.35\" stroke-dasharray=\"1.8 1.2\"");
+  for (const auto& wall : storey.walls) {
+    if (!wall.inferred) continue;
+    if (wall.thickness > 0)
+      pen.polygon({wall.outline, {}});
+    else
+      pen.line(wall.from, wall.to);
+  }
   canvas.end_group();
 }
 
@@ -78,13 +90,17 @@ void draw_room_labels(SvgCanvas& canvas, const Pen& pen, const PlanStorey& store
   for (const auto& room : storey.rooms) {
     const std::string area = fmt::format("{:.2f} m\u00B2", room.polygon.area());
     const std::string height = room.height > 0 ? fmt::format("h {:.2f} m", room.height) : "h unknown";
-    const double width = std::max(text_width(room.name, 2.6), text_width(area, 2.2)) + 2;
-    const LabelPlace place = label_place(room.polygon, Eigen::Vector2d(width, 15) * pen.mm(), obstacles);
+    const bool doubtful = is_doubtful(room);
+    const std::string doubt = doubtful ? confidence_text(room) : std::string();
+    const double width = std::max({text_width(room.name, 2.6), text_width(area, 2.2), text_width(doubt, 1.8)}) + 2;
+    const LabelPlace place =
+        label_place(room.polygon, Eigen::Vector2d(width, doubtful ? 19 : 15) * pen.mm(), obstacles);
     const double size = std::max(place.scale, 0.45);  // below, no one could read it
     const Eigen::Vector2d at = pen.at(place.scale > 0 ? place.middle : room.polygon.outline.front());
     canvas.text(at + Eigen::Vector2d(0, -2.2 * size), 3.6 * size, room.name, "font-weight=\"bold\"");
     canvas.text(at + Eigen::Vector2d(0, 2.0 * size), 3.0 * size, area);
     canvas.text(at + Eigen::Vector2d(0, 5.8 * size), 2.5 * size, height, "fill=\"#666\"");
+    if (doubtful) canvas.text(at + Eigen::Vector2d(0, 9.4 * size), 2.5 * size, doubt, "fill=\"#b00020\"");
   }
   canvas.end_group();
 }

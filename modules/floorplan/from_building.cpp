@@ -83,17 +83,18 @@ PlanStorey storey_of(const Building& building, std::int32_t index, const std::ve
     const BuildingRoom& room = building.rooms[r];
     if (room.storey != index || rooms[r].outline.size() < 3) continue;
     number[r] = static_cast<std::int32_t>(storey.rooms.size());
-    storey.rooms.push_back({room.name, rooms[r], room.height});
+    storey.rooms.push_back({room.name, rooms[r], room.height, room.confidence});
   }
   constexpr double merge_distance = 0.001, min_length = 0.01;
   storey.walls = walls_of(
       wall_faces(building, index, params.cut_height, rooms),
       {params.min_thickness, params.max_thickness, wall_parallel_angle, params.corner_gap, merge_distance, min_length});
+  mark_inferred(building, storey.walls);
   storey.openings = plan_openings(building, index, rooms, number);
   interrupt(storey.walls, storey.openings);
   std::vector<PlanRing> outlines, in_floor, overhead;
   for (const auto& wall : storey.walls)
-    if (wall.thickness > 0) outlines.push_back(wall.outline);
+    if (wall.thickness > 0 && !wall.inferred) outlines.push_back(wall.outline);
   Region inside;
   for (const auto& room : storey.rooms) inside.push_back(room.polygon);
   storey.bodies = minus(closed(united(outlines), joint), joined(inside, {}));

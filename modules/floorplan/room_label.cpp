@@ -1,5 +1,7 @@
 #include "modules/floorplan/room_label.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -49,6 +51,13 @@ class Clearance {
 };
 
 }  // namespace
+
+bool is_doubtful(const PlanRoom& room) {
+  constexpr double doubtful = 0.5;
+  return room.confidence >= 0 && room.confidence < doubtful;
+}
+
+std::string confidence_text(const PlanRoom& room) { return fmt::format("confidence {:.2f}", room.confidence); }
 
 LabelPlace label_place(const PlanPolygon& room, const Eigen::Vector2d& size, const std::vector<PlanWall>& walls) {
   constexpr int steps = 40;

@@ -17,7 +17,7 @@ namespace {
 const std::vector<DxfLayer> layers{{"A-WALL", 7, 50},      {"A-WALL-CNTR", 1, 13}, {"A-WALL-FACE", 7, 50},
                                    {"A-FLOR", 9, 13},      {"A-CLNG", 4, 13},      {"A-AREA", 3, 18},
                                    {"A-DOOR", 30, 25},     {"A-GLAZ", 5, 25},      {"A-FLOR-OVHD", 8, 18},
-                                   {"A-AREA-IDEN", 2, 18}, {"A-ANNO-DIMS", 8, 18}};
+                                   {"A-AREA-IDEN", 2, 18}, {"A-ANNO-DIMS", 8, 18}, {"A-WALL-INFR", 6, 18}};
 
 class StoreyDrawing {
  public:
@@ -27,7 +27,14 @@ class StoreyDrawing {
   void walls(const PlanStorey& storey) {
     polygons("A-WALL", storey.bodies);
     for (const auto& wall : storey.walls)
-      drawing_.line((wall.thickness > 0 ? "A-WALL-CNTR" : "A-WALL-FACE") + suffix_, wall.from, wall.to);
+      if (wall.inferred && wall.outline.size() > 2)
+        drawing_.closed_polyline("A-WALL-INFR" + suffix_, wall.outline);
+      else
+        drawing_.line((wall.inferred        ? "A-WALL-INFR"
+                       : wall.thickness > 0 ? "A-WALL-CNTR"
+                                            : "A-WALL-FACE") +
+                          suffix_,
+                      wall.from, wall.to);
   }
 
   void areas(const PlanStorey& storey) {
@@ -55,6 +62,7 @@ class StoreyDrawing {
       const Eigen::Vector2d middle = place.scale > 0 ? place.middle : room.polygon.outline.front();
       std::vector<std::string> rows{room.name, fmt::format("{:.2f} m\u00B2", room.polygon.area())};
       if (room.height > 0) rows.push_back(fmt::format("h {:.2f} m", room.height));
+      if (is_doubtful(room)) rows.push_back(confidence_text(room));
       for (std::size_t i = 0; i < rows.size(); ++i) {
         const double down = (static_cast<double>(i) - 0.5 * static_cast<double>(rows.size() - 1)) * 4 * mm_;
         drawing_.text("A-AREA-IDEN" + suffix_, middle + back * Eigen::Vector2d(0, -down), 2.5 * mm_, rows[i], turn);

@@ -14,6 +14,7 @@ namespace atrium::floorplan {
 /// | A-WALL | what the walls of known thickness cover, joined |
 /// | A-WALL-CNTR | their middle lines |
 /// | A-WALL-FACE | faces of walls of unknown thickness |
+/// | A-WALL-INFR | walls that are inferred: none of their faces was seen |
 /// | A-FLOR, A-CLNG | floors and ceilings |
 /// | A-DOOR | doors: gap, leaf open at a right angle, its sweep (which way it goes is custom, not measured) |
 /// | A-GLAZ | windows: gap and panes |

@@ -77,13 +77,15 @@ void add_storey(Features& features, const PlanStorey& storey, double origin_z) {
                   {"name", room.name},
                   {"area_m2", rounded(room.polygon.area(), 1e4)},
                   {"height_m", known(room.height)},
-                  {"elevation_m", elevation}},
+                  {"elevation_m", elevation},
+                  {"confidence", room.confidence >= 0 ? Json(rounded(room.confidence, 1e2)) : Json()}},
                  room.polygon);
   for (const auto& wall : storey.walls) {
     const Json properties{{"class", "wall"},
                           {"storey", storey.index},
                           {"thickness_m", known(wall.thickness)},
-                          {"length_m", rounded((wall.to - wall.from).norm(), 1e4)}};
+                          {"length_m", rounded((wall.to - wall.from).norm(), 1e4)},
+                          {"inferred", wall.inferred}};
     if (wall.outline.empty())
       features.add(properties, wall.from, wall.to);
     else

@@ -38,6 +38,10 @@ Json room_to_json(const BuildingRoom& room) {
             {"faces", room.faces},
             {"outline", json_of(room.outline)}};
   if (!room.holes.empty()) json["holes"] = json_of(room.holes);
+  if (room.confidence >= 0) {
+    json["confidence"] = room.confidence;
+    json["doubts"] = room.doubts;
+  }
   return json;
 }
 
@@ -117,6 +121,14 @@ Eigen::Vector3d direction_of(const JsonField& field) {
   return direction;
 }
 
+void confidence_from(const JsonField& field, double& confidence, std::vector<std::string>& doubts) {
+  if (!field.has("confidence")) return;
+  confidence = field["confidence"].number();
+  if (!(confidence >= 0 && confidence <= 1)) field["confidence"].fail("is not between 0 and 1");
+  if (field.has("doubts"))
+    for (const auto& reason : field["doubts"].items()) doubts.push_back(reason.text());
+}
+
 BuildingRoom room_from_json(const JsonField& field, std::int32_t last_storey, std::int32_t last_face) {
   BuildingRoom room;
   room.name = field["name"].text();
@@ -128,6 +140,7 @@ BuildingRoom room_from_json(const JsonField& field, std::int32_t last_storey, st
   room.outline = places_of(field["outline"]);
   if (field.has("holes"))
     for (const auto& hole : field["holes"].items()) room.holes.push_back(places_of(hole));
+  confidence_from(field, room.confidence, room.doubts);
   return room;
 }
 
@@ -169,6 +182,10 @@ std::string building_to_json(const Building& building, const Eigen::Vector3d& up
   check(building);
   if (!up.allFinite()) throw Error("what is up in the building has a number that is not finite");
   Json root{{"atrium_building", 1}, {"units", "m"}, {"up", json_of(up)}, {"origin", json_of(building.origin)}};
+  if (building.confidence >= 0) {
+    root["confidence"] = building.confidence;
+    root["doubts"] = building.doubts;
+  }
   for (const char* list : {"storeys", "rooms", "faces", "openings", "walls"}) root[list] = Json::array();
   for (const auto& storey : building.storeys)
     root["storeys"].push_back({{"elevation", storey.elevation}, {"height", storey.height}});
@@ -191,6 +208,7 @@ ReadBack building_from_json(const JsonField& root) {
   Building& building = result.building;
   result.up = direction_of(root["up"]);
   building.origin = root["origin"].place();
+  confidence_from(root, building.confidence, building.doubts);
   for (const auto& field : root["storeys"].items())
     building.storeys.push_back({field["elevation"].number(), field["height"].number()});
   building.vertices = places_of(root["vertices"]);

@@ -7,9 +7,11 @@ namespace atrium::io {
 /// Writes a building as JSON (share/schema/building.schema.json); io.read_building reads it back, bit by bit.
 ///
 ///     {"atrium_building": 1, "units": "m", "up": [0, 0, 1], "origin": [x, y, z],
+///      "confidence": 0.9, "doubts": [text, …],
 ///      "storeys":  [{"elevation": 0, "height": 2.5}, …],
 ///      "rooms":    [{"name": "room 1", "storey": 0, "area": m², "height": m, "volume": m³, "faces": [0, …],
-///                    "outline": [place, …], "holes": [[place, …], …]}, …],
+///                    "outline": [place, …], "holes": [[place, …], …],
+///                    "confidence": 0.8, "doubts": ["its floor was not seen", …]}, …],
 ///      "faces":    [{"class": "wall", "storey": 0, "room": 0, "area": m², "normal": [x, y, z], "offset": d,
 ///                    "primitive": 3, "inferred": false, "observed": 0.93, "residual": 0.004,
 ///                    "outline": [vertex, …], "holes": [[vertex, …], …]}, …],
@@ -24,7 +26,8 @@ namespace atrium::io {
 /// indices into `vertices`, counter-clockwise seen from the room, holes clockwise; normal · place + offset = 0. All is
 /// numbered from 0; −1 is none (outside, or not known). `inferred` faces have no primitive; `area` (without holes) of a
 /// face, `position` (the middle of outline_a), `width` and `height` of an opening are there for those who read the
-/// file: they follow from the rest. `holes` are left out where there are none.
+/// file: they follow from the rest. `holes` are left out where there are none, `confidence` (0 to
+/// 1) and `doubts` where nobody has judged the rooms (layout.confidence does).
 ///
 /// Errors: numbers that are not finite, indices of what is not there; a folder that cannot be written. Then no file is
 /// there.

@@ -132,6 +132,52 @@ bool has_hidden_foot(const FaceEvidence& evidence, const FaceHole& hole) {
          most * (squares.sizes().x() + 1.0) * (squares.sizes().y() + 1.0);
 }
 
+/// How much of the face was seen in a box of its squares.
+struct Seen {
+  std::size_t squares = 0, solid = 0;
+  double share(double without_squares) const {
+    return squares > 0 ? static_cast<double>(solid) / static_cast<double>(squares) : without_squares;
+  }
+};
+Seen seen_in(const FaceMask& mask, const Eigen::AlignedBox2d& box) {
+  Seen seen;
+  const Eigen::AlignedBox2i squares = mask.squares_in(box);
+  for (int y = squares.min().y(); y <= squares.max().y(); ++y)
+    for (int x = squares.min().x(); x <= squares.max().x(); ++x) {
+      if (!box.contains(mask.centre(x, y)) || mask.at(x, y) == Square::outside) continue;
+      ++seen.squares;
+      seen.solid += mask.at(x, y) == Square::solid ? 1 : 0;
+    }
+  return seen;
+}
+
+/// Whether enough of the face was seen around a hole. Beyond the face's own edge nothing is expected; but a hole that
+/// is wide must have both jambs in its face.
+bool has_rim(const FaceMask& mask, const BuildingFace& face, double spacing, const FaceHole& hole,
+             const Openings::Params& params) {
+  constexpr double rim = 0.15, least_side = 0.4;  // metres; share of one side
+  const double near = mask.pixel() + 0.5 * spacing, far = near + std::max(rim, spacing);
+  const bool slab = hole.kind == "slab", strict = slab || hole.box.sizes().x() > params.max_door_width;
+  const bool upright = face.surface == SurfaceClass::wall;
+  Seen all;
+  for (int side = 0; side < 4; ++side) {
+    const int axis = side / 2;
+    Eigen::AlignedBox2d band = hole.box;
+    if (side % 2 == 0) {
+      band.min()[axis] = hole.box.min()[axis] - far;
+      band.max()[axis] = hole.box.min()[axis] - near;
+    } else {
+      band.min()[axis] = hole.box.max()[axis] + near;
+      band.max()[axis] = hole.box.max()[axis] + far;
+    }
+    const Seen seen = seen_in(mask, band);
+    all.squares += seen.squares;
+    all.solid += seen.solid;
+    if (strict && seen.share(upright && axis == 0 ? 0 : 1) < least_side) return false;
+  }
+  return all.share(slab ? 0 : 1) >= (strict ? params.min_wide_rim : params.min_rim);
+}
+
 /// Whether anything was seen behind a hole, its reveal at least, and more than strays; or the hole from both sides.
 bool seen_through(const FaceEvidence& evidence, const FaceHole& hole) {
   constexpr double least_share = 0.02, clear = 6, most = 0.5;  // strays are denser where the way is short
@@ -184,7 +230,8 @@ void drop_fringes(std::vector<FaceHole>& holes, const FaceEvidence& evidence) {
 
 std::vector<FaceHole> face_holes(const BuildingFace& face, FaceEvidence& evidence, const Openings::Params& params) {
   std::vector<FaceHole> result;
-  if (!evidence.looked_at()) return result;
+  if (!evidence.looked_at() || face.primitive < 0) return result;
+  const FaceMask before = evidence.mask;
   const double least = least_sum(face, evidence, params);
   for (const auto& part : evidence.mask.parts())
     while (const auto squares = evidence.mask.best_rectangle(part, least)) {
@@ -196,6 +243,7 @@ std::vector<FaceHole> face_holes(const BuildingFace& face, FaceEvidence& evidenc
         hole.foot = evidence.mask.box().min().y();
         hole.foot_hidden = face.surface == SurfaceClass::wall && has_hidden_foot(evidence, hole);
         hole.leads_on = leads_on(evidence, hole, params);
+        hole.doubtful = !has_rim(before, face, evidence.spacing, hole, params);
         result.push_back(hole);
       }
     }

@@ -18,6 +18,7 @@ struct FaceHole {
   double foot = 0;                       ///< of the face, in the frame
   bool foot_hidden = false;              ///< it may go on down to the foot: what is below it was not seen
   bool leads_on = false;                 ///< points behind it are a leaf, or a place to go to
+  bool doubtful = false;                 ///< too little of the face around it was seen
 };
 
 /// The rectangles that the evidence's hole squares fill, where something shows behind them. Uses the squares up.

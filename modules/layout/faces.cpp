@@ -14,6 +14,7 @@
 #include "modules/layout/raster.hpp"
 #include "modules/layout/room_cells.hpp"
 #include "modules/layout/room_surface.hpp"
+#include "modules/types/ground_truth.hpp"
 
 namespace atrium::layout {
 namespace {
@@ -39,6 +40,7 @@ class Assembly {
     building_.rooms.resize(static_cast<std::size_t>(number_rooms(storeys)));
     if (building_.rooms.empty()) refuse();
     for (std::size_t s = 0; s < storeys.size(); ++s) add_storey(storeys[s], static_cast<std::int32_t>(s));
+    set_storey_heights();
     return std::move(building_);
   }
 
@@ -217,10 +219,22 @@ class Assembly {
       for (const auto& hole : face.holes) area += signed_area(hole, v, n);
       // The divergence theorem over faces that look inside.
       room.volume -= area * n.dot(v[face.outline[0]]) / 3;
-      if (face.surface != SurfaceClass::floor) continue;
-      room.area += area;
     }
+    // As seen from above, however the floor slopes.
+    room.area = area_vector(room.outline).z();
+    for (const auto& hole : room.holes) room.area += area_vector(hole).z();
     if (room.area > 0) room.height = room.volume / room.area;
+  }
+
+  /// The mean height of a storey's rooms. A storey without rooms keeps that of its planes.
+  void set_storey_heights() {
+    std::vector<double> areas(building_.storeys.size(), 0), volumes(building_.storeys.size(), 0);
+    for (const auto& room : building_.rooms) {
+      areas[static_cast<std::size_t>(room.storey)] += room.area;
+      volumes[static_cast<std::size_t>(room.storey)] += room.volume;
+    }
+    for (std::size_t s = 0; s < areas.size(); ++s)
+      if (areas[s] > 0) building_.storeys[s].height = volumes[s] / areas[s];
   }
 
   const CellComplex& cells_;

@@ -17,8 +17,10 @@ namespace atrium::layout {
 /// is the share of the face's squares that hold points of such primitives, `residual` their RMS distance.
 ///
 /// Where the ceiling comes down to the floor the room ends. What is cut in two that way is two rooms; a room of which
-/// nothing is left is left out, with a warning. Rooms are named "room 1" … in their order; volume, area and height are
-/// those of the closed surface.
+/// nothing is left is left out, with a warning. Rooms are named "room 1" … in their order. A
+/// room's area is that of its outline seen from above, without holes; its volume that of the closed surface; its height
+/// volume / area, the mean height. A storey's elevation is that of its main floor, its height the mean height of its
+/// rooms (by area).
 ///
 /// Errors: cells without any room.
 struct Faces {

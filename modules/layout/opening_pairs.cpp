@@ -66,8 +66,8 @@ void reach_foot(FaceHole& hole) {
 
 class Joining {
  public:
-  Joining(const Building& building, const Found& found)
-      : building_(building), found_(found), behind_(opposite_faces(building)) {
+  Joining(const Building& building, const Found& found, double max_door_width)
+      : building_(building), found_(found), max_door_width_(max_door_width), behind_(opposite_faces(building)) {
     for (const auto& holes : found) used_.emplace_back(holes.size(), false);
   }
 
@@ -122,7 +122,8 @@ class Joining {
 
   void add(std::size_t f, const FaceHole& hole, const std::size_t* other) {
     BuildingOpening opening;
-    opening.kind = hole.kind;
+    const bool passage = hole.kind == "door" && hole.box.sizes().x() > max_door_width_;
+    opening.kind = passage ? "passage" : hole.kind;
     opening.face_a = static_cast<std::int32_t>(f);
     opening.room_a = building_.faces[f].room;
     opening.outline_a = outline_of(hole);
@@ -139,6 +140,7 @@ class Joining {
 
   const Building& building_;
   const Found& found_;
+  double max_door_width_;
   std::vector<std::vector<std::size_t>> behind_;
   std::vector<std::vector<bool>> used_;
   std::vector<BuildingOpening> openings_;
@@ -175,8 +177,8 @@ void take_holes_from_behind(const Building& building, Evidence& evidence) {
   }
 }
 
-std::vector<BuildingOpening> joined(const Building& building, const Found& found) {
-  return Joining(building, found).run();
+std::vector<BuildingOpening> joined(const Building& building, const Found& found, double max_door_width) {
+  return Joining(building, found, max_door_width).run();
 }
 
 }  // namespace atrium::layout

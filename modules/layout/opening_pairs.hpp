@@ -19,7 +19,8 @@ void take_solid_from_behind(const Building& building, Evidence& evidence);
 /// What is hidden in a face and a hole in the face behind it is a hole.
 void take_holes_from_behind(const Building& building, Evidence& evidence);
 
-/// One opening for each hole, or for two that lie over each other in opposite faces.
-std::vector<BuildingOpening> joined(const Building& building, const Found& found);
+/// One opening for each hole, or for two that lie over each other in opposite faces. Doors wider than max_door_width
+/// (metres) are passages.
+std::vector<BuildingOpening> joined(const Building& building, const Found& found, double max_door_width);
 
 }  // namespace atrium::layout

@@ -32,13 +32,17 @@ Openings::Out Openings::run(const In& in, const Params& params, Context& context
   take_holes_from_behind(building, evidence);
   Found found(building.faces.size());
   for_each_face([&](std::size_t f) { found[f] = face_holes(building.faces[f], evidence[f], params); });
-  building.openings = joined(building, found);
+  std::size_t doubtful = 0;
+  for (auto& holes : found) doubtful += std::erase_if(holes, [](const FaceHole& hole) { return hole.doubtful; });
+  building.openings = joined(building, found, params.max_door_width);
   const auto count = [&](std::string_view kind) {
     return std::count_if(building.openings.begin(), building.openings.end(),
                          [&](const auto& opening) { return opening.kind == kind; });
   };
-  context.info(fmt::format("{} doors, {} windows, {} slab openings; {} walls seen from both sides", count("door"),
-                           count("window"), count("slab"), building.walls.size()));
+  context.info(fmt::format("{} doors, {} passages, {} windows, {} slab openings; {} walls seen from both sides",
+                           count("door"), count("passage"), count("window"), count("slab"), building.walls.size()));
+  if (doubtful > 0)
+    context.info(fmt::format("{} openings are left out: too little of the faces around them was seen", doubtful));
   Building relative;  // the openings alone, to the building's own origin
   relative.origin = building.origin;
   relative.openings = std::move(building.openings);

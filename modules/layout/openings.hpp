@@ -5,7 +5,7 @@
 
 namespace atrium::layout {
 
-/// Finds doors, windows and holes in slabs: where a face must have been hit if it were solid, and was not.
+/// Finds doors, passages, windows and holes in slabs: where a face must have been hit if it were solid, and was not.
 ///
 /// - A square of a face is solid if points lie on it (within `tolerance`, or thrice the face's noise) or around it as
 ///   densely as they do there; if the face behind it in the same wall is solid there; else it is hidden.
@@ -18,9 +18,12 @@ namespace atrium::layout {
 ///   hole (hidden squares count half), and if something shows through them, more than strays do: a reveal at least.
 ///   Their sides are moved to where the face's points begin around them, or to the jambs of the reveal.
 /// - What begins within sill_height over its face's foot, or hides its foot and joins two rooms or has a leaf, is a
-/// door
-///   and reaches the foot. One that joins no rooms, shows no leaf and has no floor beyond is glazed: a window, as all
-///   others are.
+///   door and reaches the foot; wider than max_door_width it is a passage. One that joins no rooms, shows no leaf and
+///   has no floor beyond is glazed: a window, as all others are.
+/// - Faces that are inferred have no openings of their own. Around an opening the face must have been seen: on min_rim
+///   of a rim of 15 cm, on min_wide_rim of it for slabs and for what is wider than max_door_width. These must have
+///   their rim on each side, wide openings in walls both jambs in the face. Openings for which too little was seen are
+///   left out, and counted in the log.
 /// - Rectangles of two faces back to back that lie over each other are one opening: it joins their rooms, and has the
 ///   thickness of the wall; each side is where more points say so.
 ///
@@ -48,6 +51,9 @@ struct Openings {
     double min_fill = 0.7;
     double sill_height = 0.2;
     double max_thickness = 0.6;
+    double max_door_width = 2;
+    double min_rim = 0.3;
+    double min_wide_rim = 0.6;
   };
   static constexpr auto inputs =
       std::tuple{port(&In::building, "building", "Closed rooms."),
@@ -62,7 +68,11 @@ struct Openings {
             "Of an opening in a floor or ceiling."),
       param(&Params::min_fill, "min_fill", ratio, within(0, 1), "Share of an opening's rectangle that is a hole."),
       param(&Params::sill_height, "sill_height", metres, within(0, 10), "Lower openings are doors."),
-      param(&Params::max_thickness, "max_thickness", metres, within(0.01, 10), "Of a wall or slab.")};
+      param(&Params::max_thickness, "max_thickness", metres, within(0.01, 10), "Of a wall or slab."),
+      param(&Params::max_door_width, "max_door_width", metres, within(0.1, 100), "What is wider is a passage."),
+      param(&Params::min_rim, "min_rim", ratio, within(0, 1), "Share of the rim around an opening that was seen."),
+      param(&Params::min_wide_rim, "min_wide_rim", ratio, within(0, 1),
+            "The same for slabs, and for openings wider than max_door_width.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

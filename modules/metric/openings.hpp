@@ -15,11 +15,12 @@ namespace atrium::metric {
 /// opening once: a door that was found twice, once from each room, is one match and one opening too many.
 ///
 /// Metrics: openings.{true,found,matched,precision,recall,f1} of all kinds, and under openings.<kind> of those kinds
-/// that either side has (door, window, slab); openings.any_kind.{matched,precision,recall,f1}, for which a window may
-/// be called a door; of what matches openings.iou (mean) and openings.joined: the share that joins the right rooms.
-/// Rooms are the same where their floors are within 1 m in height and share more than half of their union. What is
-/// undefined is left out: precision of nothing found. Openings whose outline is no simple polygon count as found, match
-/// nothing and are warned of. Errors: coordinates that are not finite.
+/// that either side has (door, window, slab; a passage counts as a door);
+/// openings.any_kind.{matched,precision,recall,f1}, for which a window may be called a door; of what matches
+/// openings.iou (mean) and openings.joined: the share that joins the right rooms. Rooms are the same where their floors
+/// are within 1 m in height and share more than half of their union. What is undefined is left out: precision of
+/// nothing found. Openings whose outline is no simple polygon count as found, match nothing and are warned of. Errors:
+/// coordinates that are not finite.
 struct Openings {
   static constexpr std::string_view type = "metric.openings";
   static constexpr std::string_view summary = "Precision, recall and F1 of a building's doors, windows and slab holes.";

@@ -37,15 +37,18 @@ std::vector<Fact> Building::facts(const Building& building) {
   };
   const auto inferred =
       std::count_if(building.faces.begin(), building.faces.end(), [](const auto& face) { return face.primitive < 0; });
-  return {{"building.storeys", static_cast<std::int64_t>(building.storeys.size()), ""},
-          {"building.rooms", static_cast<std::int64_t>(building.rooms.size()), ""},
-          {"building.area", area, "m2"},
-          {"building.volume", volume, "m3"},
-          {"building.faces", static_cast<std::int64_t>(building.faces.size()), ""},
-          {"building.inferred_faces", static_cast<std::int64_t>(inferred), ""},
-          {"building.doors", openings("door"), ""},
-          {"building.windows", openings("window"), ""},
-          {"building.slab_openings", openings("slab"), ""}};
+  std::vector<Fact> facts{{"building.storeys", static_cast<std::int64_t>(building.storeys.size()), ""},
+                          {"building.rooms", static_cast<std::int64_t>(building.rooms.size()), ""},
+                          {"building.area", area, "m2"},
+                          {"building.volume", volume, "m3"},
+                          {"building.faces", static_cast<std::int64_t>(building.faces.size()), ""},
+                          {"building.inferred_faces", static_cast<std::int64_t>(inferred), ""},
+                          {"building.doors", openings("door"), ""},
+                          {"building.passages", openings("passage"), ""},
+                          {"building.windows", openings("window"), ""},
+                          {"building.slab_openings", openings("slab"), ""}};
+  if (building.confidence >= 0) facts.push_back({"building.confidence", building.confidence, ""});
+  return facts;
 }
 
 }  // namespace atrium

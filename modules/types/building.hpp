@@ -33,14 +33,14 @@ struct BuildingFace {
   double residual = 0;  ///< RMS distance of those points to the plane, metres; 0: no points
 };
 
-/// A door, a window, or a hole in a slab: a polygon in the plane of a face.
+/// A door, a passage, a window, or a hole in a slab: a polygon in the plane of a face.
 struct BuildingOpening {
   static constexpr auto members() {
     return std::tuple{&BuildingOpening::kind,      &BuildingOpening::room_a,   &BuildingOpening::room_b,
                       &BuildingOpening::face_a,    &BuildingOpening::face_b,   &BuildingOpening::thickness,
                       &BuildingOpening::outline_a, &BuildingOpening::outline_b};
   }
-  std::string kind;          ///< "door", "window", "slab"
+  std::string kind;          ///< "door", "passage" (wider than a door, without a leaf), "window", "slab"
   std::int32_t room_a = -1;  ///< the rooms that it joins; room_b −1: outside, or not known
   std::int32_t room_b = -1;
   std::int32_t face_a = -1;  ///< the faces that it pierces; face_b −1: none
@@ -52,23 +52,26 @@ struct BuildingOpening {
 
 struct BuildingRoom {
   static constexpr auto members() {
-    return std::tuple{&BuildingRoom::name, &BuildingRoom::storey, &BuildingRoom::faces,  &BuildingRoom::outline,
-                      &BuildingRoom::area, &BuildingRoom::height, &BuildingRoom::volume, &BuildingRoom::holes};
+    return std::tuple{&BuildingRoom::name,       &BuildingRoom::storey, &BuildingRoom::faces,  &BuildingRoom::outline,
+                      &BuildingRoom::area,       &BuildingRoom::height, &BuildingRoom::volume, &BuildingRoom::holes,
+                      &BuildingRoom::confidence, &BuildingRoom::doubts};
   }
   std::string name;
   std::int32_t storey = 0;
   std::vector<std::int32_t> faces;                  ///< its closed surface
   std::vector<Eigen::Vector3d> outline;             ///< of its floor, counter-clockwise from above
-  double area = 0;                                  ///< of its floor, square metres
-  double height = 0;                                ///< volume / area, metres
+  double area = 0;                                  ///< of its plan: outline without holes, square metres
+  double height = 0;                                ///< volume / area: the mean height, metres
   double volume = 0;                                ///< cubic metres
   std::vector<std::vector<Eigen::Vector3d>> holes;  ///< of its floor (columns), clockwise from above
+  double confidence = -1;                           ///< 0 to 1 (layout.confidence); -1: nobody has said
+  std::vector<std::string> doubts;                  ///< why it is not 1, the gravest first
 };
 
 struct BuildingStorey {
   static constexpr auto members() { return std::tuple{&BuildingStorey::elevation, &BuildingStorey::height}; }
   double elevation = 0;  ///< of its floor, metres, relative to origin
-  double height = 0;     ///< floor to ceiling, metres
+  double height = 0;     ///< mean height of its rooms, floor to ceiling: their volume / their area, metres
 };
 
 /// Two faces of one wall, back to back.
@@ -87,10 +90,11 @@ struct BuildingWall {
 struct Building {
   static constexpr std::string_view port_type = "Building";
   static constexpr auto members() {
-    return std::tuple{&Building::origin, &Building::vertices, &Building::storeys, &Building::rooms,
-                      &Building::faces,  &Building::openings, &Building::walls};
+    return std::tuple{&Building::origin, &Building::vertices,   &Building::storeys,
+                      &Building::rooms,  &Building::faces,      &Building::openings,
+                      &Building::walls,  &Building::confidence, &Building::doubts};
   }
-  /// How many storeys, rooms, faces (inferred: by no primitive), openings of each kind, floor area and volume.
+  /// How many storeys, rooms, faces (inferred: by no primitive), openings of each kind, floor area, volume, confidence.
   static std::vector<Fact> facts(const Building& building);
 
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -100,6 +104,8 @@ struct Building {
   std::vector<BuildingFace> faces;
   std::vector<BuildingOpening> openings;
   std::vector<BuildingWall> walls;
+  double confidence = -1;           ///< of all rooms, by area: 0 to 1 (layout.confidence); -1: nobody has said
+  std::vector<std::string> doubts;  ///< what of the scan the rooms leave out, and the like
 };
 
 /// The building in the transform's target frame: the origin moves, local coordinates only turn. Where z is not up

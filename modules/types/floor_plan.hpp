@@ -26,13 +26,15 @@ struct PlanPolygon {
 /// left of from → to.
 struct PlanWall {
   static constexpr auto members() {
-    return std::tuple{&PlanWall::from, &PlanWall::to, &PlanWall::thickness, &PlanWall::outline, &PlanWall::primitives};
+    return std::tuple{&PlanWall::from,    &PlanWall::to,         &PlanWall::thickness,
+                      &PlanWall::outline, &PlanWall::primitives, &PlanWall::inferred};
   }
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< the middle line (thickness > 0) or the seen face
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
   double thickness = 0;                  ///< metres
   PlanRing outline;                      ///< counter-clockwise; reaches into the walls that it meets at its ends
   std::vector<std::int32_t> primitives;  ///< that it was made from
+  bool inferred = false;                 ///< none of its faces was seen
 };
 
 /// A door or a window in a wall, or a hole in a slab, seen from above. `outline` is the gap in the wall, or the hole;
@@ -43,7 +45,7 @@ struct PlanOpening {
                       &PlanOpening::outline, &PlanOpening::room_a, &PlanOpening::room_b,
                       &PlanOpening::sill,    &PlanOpening::height, &PlanOpening::thickness};
   }
-  std::string kind;  ///< "door", "window", "slab"
+  std::string kind;  ///< "door", "passage", "window", "slab"
   Eigen::Vector2d from =
       Eigen::Vector2d::Zero();  ///< on the wall's middle line, or on its only face; of no use in slabs
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
@@ -58,10 +60,13 @@ struct PlanOpening {
 };
 
 struct PlanRoom {
-  static constexpr auto members() { return std::tuple{&PlanRoom::name, &PlanRoom::polygon, &PlanRoom::height}; }
+  static constexpr auto members() {
+    return std::tuple{&PlanRoom::name, &PlanRoom::polygon, &PlanRoom::height, &PlanRoom::confidence};
+  }
   std::string name;
-  PlanPolygon polygon;  ///< of its floor
-  double height = 0;    ///< floor to ceiling, metres; 0: not known
+  PlanPolygon polygon;     ///< of its floor
+  double height = 0;       ///< floor to ceiling, metres; 0: not known
+  double confidence = -1;  ///< 0 to 1 (layout.confidence); -1: not known
 };
 
 struct PlanStorey {

@@ -62,6 +62,26 @@ TEST(FromBuilding, RoomsAreThoseOfTheBuilding) {
   EXPECT_NEAR(total_area(storey.ceilings), 20.64, 1e-4);
 }
 
+TEST(FromBuilding, WallsOfWhichNothingWasSeenAreInferredAndNoBodies) {
+  Building building = test::BoxBuilding::two_rooms();
+  building.openings.clear();
+  building.rooms[0].confidence = 0.4;
+  building.faces[2].primitive = -1;   // the first room's wall y = 0
+  building.faces[3].observed = 0.05;  // both faces of the wall between the rooms
+  building.faces[11].observed = 0.05;
+  const PlanStorey storey = drawn(building).storeys.at(0);
+  EXPECT_TRUE(storey.bodies.empty());
+  double inferred = 0;
+  for (const auto& wall : storey.walls)
+    if (wall.inferred) inferred += (wall.to - wall.from).norm();
+  EXPECT_NEAR(inferred, 4 + 3, 0.3);
+  EXPECT_EQ(storey.rooms[0].confidence, 0.4);
+  EXPECT_EQ(storey.rooms[1].confidence, -1);
+  // One face that was seen is enough for a wall.
+  building.faces[11].observed = 0.9;
+  EXPECT_FALSE(drawn(building).storeys.at(0).bodies.empty());
+}
+
 TEST(FromBuilding, OpeningsInterruptTheWalls) {
   const FloorPlan plan = drawn(test::BoxBuilding::two_rooms());
   const PlanStorey& storey = plan.storeys[0];

@@ -378,5 +378,24 @@ TEST_F(Svg, AFolderThatCannotBeWrittenIsAnError) {
   EXPECT_THROW(write(plan_of(two_rooms()), params), Error);
 }
 
+TEST_F(Svg, WhatIsDoubtfulIsMarked) {
+  PlanStorey storey;
+  storey.rooms = {{"room 1", {{{0, 0}, {6, 0}, {6, 5}, {0, 5}}, {}}, 2.5, 0.37},
+                  {"room 2", {{{7, 0}, {13, 0}, {13, 5}, {7, 5}}, {}}, 2.5, 0.9}};
+  PlanWall wall;
+  wall.from = {0, 0};
+  wall.to = {6, 0};
+  storey.walls = {wall};
+  FloorPlan plan;
+  plan.storeys = {storey};
+  EXPECT_EQ(write(plan).find("class=\"inferred\""), std::string::npos);
+  plan.storeys[0].walls[0].inferred = true;
+  const std::string svg = write(plan);
+  EXPECT_NE(svg.find("class=\"inferred\""), std::string::npos);
+  const auto all = texts(svg);
+  EXPECT_EQ(std::count(all.begin(), all.end(), "confidence 0.37"), 1);
+  EXPECT_EQ(std::count(all.begin(), all.end(), "confidence 0.90"), 0);
+}
+
 }  // namespace
 }  // namespace atrium::floorplan

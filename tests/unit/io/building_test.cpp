@@ -64,6 +64,24 @@ TEST_F(BuildingFile, ComesBackBitByBit) {
   EXPECT_EQ(content_hash(read().building), content_hash(building));
 }
 
+TEST_F(BuildingFile, KeepsConfidenceAndDoubtsAndLeavesThemOutWhereNobodyHasJudged) {
+  Building building = test::BoxBuilding::two_rooms();
+  json root = write(building);
+  EXPECT_FALSE(root.contains("confidence"));
+  EXPECT_FALSE(root["rooms"][0].contains("confidence"));
+  EXPECT_EQ(read().building.rooms[0].confidence, -1);
+  building.confidence = 0.75;
+  building.doubts = {"7.0 m2 are in no room"};
+  building.rooms[1].confidence = 0;
+  building.rooms[1].doubts = {"its floor was not seen", "it is a slit"};
+  root = write(building);
+  EXPECT_EQ(root["confidence"], 0.75);
+  EXPECT_EQ(root["rooms"][1]["doubts"].size(), 2U);
+  EXPECT_EQ(content_hash(read().building), content_hash(building));
+  root["rooms"][1]["confidence"] = 1.5;
+  EXPECT_NE(error_of(root).find("is not between 0 and 1"), std::string::npos);
+}
+
 TEST_F(BuildingFile, StandsInTheInputsFrame) {
   const Building building = test::BoxBuilding::two_rooms();
   Transform transform;  // from a tilted scan, far away

@@ -196,5 +196,11 @@ TEST(MetricOpenings, BadInput) {
   EXPECT_FALSE(has(compare({}, GroundTruth{}), "openings.f1"));
 }
 
+TEST(MetricOpenings, APassageIsADoor) {
+  const Metrics m = changed([](BuildingOpening& opening) { opening.kind = "passage"; });
+  expect_perfect(m);
+  EXPECT_EQ(of(m, "door.f1"), 1);
+}
+
 }  // namespace
 }  // namespace atrium::metric
