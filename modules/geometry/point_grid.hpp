@@ -41,6 +41,8 @@ class PointGrid {
   Eigen::Vector3d centre(const Cell& cell) const {
     return (base_ + Eigen::Vector3d(cell.x + 0.5, cell.y + 0.5, cell.z + 0.5)) * cell_size_;
   }
+  /// The low corner of the cell (0, 0, 0), in the points' frame.
+  Eigen::Vector3d corner() const { return base_ * cell_size_; }
   /// Number of cells along each axis.
   const std::array<std::int32_t, 3>& extent() const { return extent_; }
 

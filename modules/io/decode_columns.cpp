@@ -103,7 +103,7 @@ void decode_normals(const RawGeometry& geometry, const std::vector<std::uint32_t
       read_numbers(geometry.column(Role::nz), i, n, v[2]);
       for (std::size_t k = 0; k < n; ++k) {
         const double length = std::sqrt(v[0][k] * v[0][k] + v[1][k] * v[1][k] + v[2][k] * v[2][k]);
-        const bool good = length > 1e-6 && length < 1e6;
+        const bool good = length > 0 && std::isfinite(length);
         const double factor = good ? 1.0 / length : 0.0;
         bad[c] += good ? 0 : 1;
         if (good)

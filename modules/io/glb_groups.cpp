@@ -74,6 +74,23 @@ Eigen::Vector3d glb_offset(const Mesh& mesh) {
   return (mesh.origin + box.center()).array().round();
 }
 
+Eigen::Matrix3d glb_rotation(const Eigen::Vector3d& up) {
+  Eigen::Index largest = 0;
+  up.cwiseAbs().maxCoeff(&largest);
+  const bool positive = up[largest] > 0;
+  Eigen::Matrix3d turn;
+  if (largest == 2)
+    turn << 1, 0, 0, 0, 0, positive ? 1 : -1, 0, positive ? -1 : 1, 0;
+  else if (largest == 1)
+    turn << 1, 0, 0, 0, positive ? 1 : -1, 0, 0, 0, positive ? 1 : -1;
+  else
+    turn << 0, positive ? -1 : 1, 0, positive ? 1 : -1, 0, 0, 0, 0, 1;
+  constexpr double level = 0.99619;  // cosine of 5 degrees
+  const Eigen::Vector3d left = turn * up;
+  if (left.y() > level) return turn;
+  return Eigen::Quaterniond::FromTwoVectors(left, Eigen::Vector3d::UnitY()).toRotationMatrix() * turn;
+}
+
 std::array<double, 3> linear(const Colour& colour) {
   std::array<double, 3> result{};
   for (std::size_t i = 0; i < 3; ++i) {

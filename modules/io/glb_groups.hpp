@@ -40,8 +40,10 @@ class GroupCorners {
 /// together; else whole metres in the middle.
 Eigen::Vector3d glb_offset(const Mesh& mesh);
 
-/// glTF's y is up: (x, y, z) becomes (x, z, -y).
-inline Eigen::Vector3d y_up(const Eigen::Vector3d& p) { return {p.x(), p.z(), -p.y()}; }
+/// The rotation that brings `up` (unit length) to glTF's +y: by quarter turns that bring the nearest axis there, so
+/// that z up becomes (x, z, -y) and y up stays; then, if `up` is more than 5 degrees from that axis, by the least
+/// rotation.
+Eigen::Matrix3d glb_rotation(const Eigen::Vector3d& up);
 
 /// glTF wants factors and vertex colours linear, not as sRGB.
 std::array<double, 3> linear(const Colour& colour);

@@ -21,8 +21,12 @@ using tinygltf::Value;
 /// Builds the model: nodes and meshes of a class and storey, primitives of a plane, and their materials.
 class GlbModel {
  public:
-  GlbModel(const Mesh& mesh, const FaceImages& images)
-      : mesh_(mesh), images_(images), offset_(glb_offset(mesh)), corners_(mesh.vertices.size()) {
+  GlbModel(const Mesh& mesh, const FaceImages& images, const Eigen::Vector3d& up)
+      : mesh_(mesh),
+        images_(images),
+        offset_(glb_offset(mesh)),
+        turn_(glb_rotation(up)),
+        corners_(mesh.vertices.size()) {
     describe();
     image_materials_.assign(images.size(), -1);
     for (const auto& group : glb_groups(mesh)) add(group);
@@ -37,12 +41,27 @@ class GlbModel {
     Object extras;
     extras["origin"] = Value(Value::Array{Value(offset_.x()), Value(offset_.y()), Value(offset_.z())});
     extras["unit"] = Value(std::string("metre"));
-    extras["frame"] = Value(std::string("x = origin[0] + X, y = origin[1] - Z, z = origin[2] + Y"));
+    extras["frame"] = Value(frame_text());
     model_.asset.extras = Value(extras);
     model_.scenes.emplace_back();
     model_.scenes[0].name = "Atrium";
     model_.scenes[0].extras = Value(extras);
     model_.defaultScene = 0;
+  }
+
+  /// How true coordinates follow from those of the file.
+  std::string frame_text() const {
+    std::string text;
+    for (int i = 0; i < 3; ++i) {
+      text += fmt::format("{}{} = origin[{}]", i == 0 ? "" : ", ", "xyz"[i], i);
+      for (int k = 0; k < 3; ++k) {
+        const double factor = turn_(k, i);  // of the inverse
+        if (factor == 0) continue;
+        const double size = std::abs(factor);
+        text += fmt::format(" {} {}{}", factor < 0 ? '-' : '+', size == 1 ? "" : fmt::format("{} ", size), "XYZ"[k]);
+      }
+    }
+    return text;
   }
 
   void add(const GlbGroup& group) {
@@ -54,7 +73,7 @@ class GlbModel {
     primitive.attributes["POSITION"] = add_positions(used.vertices);
     if (const auto normal = common_normal(mesh_, group))
       primitive.attributes["NORMAL"] =
-          buffer_.vectors(model_, std::vector<Eigen::Vector3f>(used.vertices.size(), y_up(*normal).cast<float>()));
+          buffer_.vectors(model_, std::vector<Eigen::Vector3f>(used.vertices.size(), (turn_ * *normal).cast<float>()));
     const std::size_t image = images_.find(group.surface, group.primitive);
     const bool coloured = image == FaceImages::none && has_own_colours(used.vertices, group);
     if (image != FaceImages::none) primitive.attributes["TEXCOORD_0"] = add_places(used.vertices, image);
@@ -92,7 +111,7 @@ class GlbModel {
     const Eigen::Vector3d shift = mesh_.origin - offset_;
     std::vector<Eigen::Vector3f> places;
     places.reserve(vertices.size());
-    for (const auto v : vertices) places.emplace_back(y_up(mesh_.vertices[v] + shift).cast<float>());
+    for (const auto v : vertices) places.emplace_back((turn_ * (mesh_.vertices[v] + shift)).cast<float>());
     return buffer_.positions(model_, places);
   }
   int add_places(const std::vector<std::uint32_t>& vertices, std::size_t image) {
@@ -166,6 +185,7 @@ class GlbModel {
   const Mesh& mesh_;
   const FaceImages& images_;
   Eigen::Vector3d offset_;
+  Eigen::Matrix3d turn_;  ///< from the mesh's frame to glTF's
   GroupCorners corners_;
   GlbBuffer buffer_;
   tinygltf::Model model_;
@@ -175,8 +195,8 @@ class GlbModel {
 
 }  // namespace
 
-void write_glb(const Mesh& mesh, const FaceImages& images, AtomicFile& file) {
-  const GlbModel glb(mesh, images);
+void write_glb(const Mesh& mesh, const FaceImages& images, const Eigen::Vector3d& up, AtomicFile& file) {
+  const GlbModel glb(mesh, images, up);
   std::ofstream stream(file.path(), std::ios::binary);
   tinygltf::TinyGLTF writer;
   errno = 0;

@@ -2,15 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
 #include "modules/geometry/poisson_disk.hpp"
 #include "modules/io/decode.hpp"
 #include "modules/io/duplicates.hpp"
+#include "modules/io/paths.hpp"
 #include "modules/io/read_geometry.hpp"
+#include "modules/io/unit_guess.hpp"
 
 namespace atrium::io {
 namespace {
 
-void set_sensor(const RawGeometry& geometry, const ReadScan::Params& params, Cloud& cloud) {
+void set_sensor(const RawGeometry& geometry, const ReadScan::Params& params, double scale, Cloud& cloud) {
   if (params.sensor == ReadScan::SensorUse::automatic && !cloud.sensors.empty()) return;  // several, with sources
   cloud.sensors.clear();
   cloud.source.clear();
@@ -18,7 +24,7 @@ void set_sensor(const RawGeometry& geometry, const ReadScan::Params& params, Clo
   if (params.sensor == ReadScan::SensorUse::origin) place = Eigen::Vector3d::Zero();
   if (params.sensor == ReadScan::SensorUse::automatic) {
     const Eigen::Vector3d viewpoint = geometry.viewpoint.value_or(Eigen::Vector3d::Zero());
-    if (viewpoint.allFinite() && (!viewpoint.isZero(0) || geometry.organised)) place = viewpoint * params.scale;
+    if (viewpoint.allFinite() && (!viewpoint.isZero(0) || geometry.organised)) place = viewpoint * scale;
   }
   if (place) cloud.sensors = {(*place - cloud.origin).cast<float>()};
 }
@@ -27,8 +33,33 @@ void hint_at_unit(const std::string& path, const Cloud& cloud, const Context& co
   constexpr float large = 500.0F;  // metres: no interior is longer, but 500 mm is less than any room
   const Eigen::Vector3f extent = bounds_of(cloud.points, context).extent();
   if (extent.maxCoeff() > large)
-    context.warn(fmt::format("{}: the extent is {:.0f} × {:.0f} × {:.0f} m: if these are millimetres, set scale: 0.001",
+    context.warn(fmt::format("{}: the extent is {:.0f} × {:.0f} × {:.0f} m: if these are millimetres, set unit: mm",
                              path, extent.x(), extent.y(), extent.z()));
+}
+
+double metres_per(ReadScan::Unit unit) {
+  switch (unit) {
+    case ReadScan::Unit::centimetre: return 0.01;
+    case ReadScan::Unit::millimetre: return 0.001;
+    case ReadScan::Unit::inch: return 0.0254;
+    case ReadScan::Unit::foot: return 0.3048;
+    default: return 1.0;
+  }
+}
+
+/// Metres per unit of the file: as it is set, as the format fixes it, or as the scan shows; says so.
+double unit_of(const RawGeometry& geometry, const ReadScan::Params& params, const Cloud& unscaled,
+               const Context& context) {
+  if (params.scale != 1.0) return 1.0;
+  const std::string extension = extension_of(geometry.path);
+  const auto is = [&](std::string_view known) { return extension == known; };
+  if (is(".glb") || is(".gltf") || is(".e57")) return 1.0;  // metres by their rules
+  const UnitGuess guess = guess_unit(unscaled.points, is(".obj"), context);
+  if (!guess.warning.empty())
+    context.warn(fmt::format("{}: {}", geometry.path, guess.warning));
+  else
+    context.info(fmt::format("{}: taken to be in metres{}", geometry.path, guess.reason));
+  return guess.metres;
 }
 
 void warn_of_duplicates(const std::string& path, const Cloud& cloud, const Context& context) {
@@ -38,10 +69,25 @@ void warn_of_duplicates(const std::string& path, const Cloud& cloud, const Conte
                              path, 100.0 * share));
 }
 
-/// As many samples as the mesh has vertices, unless the parameter says how many.
-Cloud sample(const RawGeometry& geometry, const ReadScan::Params& params, const Context& context) {
-  const Mesh mesh = decode_mesh(geometry, params.scale, context);
-  const std::size_t wanted = params.samples > 0 ? static_cast<std::size_t>(params.samples) : mesh.vertices.size();
+double surface_of(const Mesh& mesh) {
+  double twice = 0;
+  for (const auto& t : mesh.triangles) {
+    const Eigen::Vector3d& a = mesh.vertices[t[0]];
+    twice += (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm();
+  }
+  return twice / 2;
+}
+
+std::size_t samples_of(const Mesh& mesh, const ReadScan::Params& params) {
+  constexpr double most = 4e9;
+  if (params.samples > 0) return static_cast<std::size_t>(params.samples);
+  if (params.spacing == 0) return mesh.vertices.size();
+  return static_cast<std::size_t>(std::min(most, std::ceil(surface_of(mesh) / (params.spacing * params.spacing))));
+}
+
+Cloud sample(const RawGeometry& geometry, const ReadScan::Params& params, double scale, const Context& context) {
+  const Mesh mesh = decode_mesh(geometry, scale, context);
+  const std::size_t wanted = samples_of(mesh, params);
   if (wanted < 3) throw Error(fmt::format("{}: {} samples of the mesh", geometry.path, wanted), "three are the least");
   if (mesh.triangles.empty())
     throw Error(geometry.path + ": none of the mesh's triangles has finite corners", "mesh: vertices reads its points");
@@ -58,8 +104,17 @@ ReadScan::Out ReadScan::run(const In& /*in*/, const Params& params, Context& con
   const std::string& path = params.path.path;
   const RawGeometry geometry = read_geometry(path, context);
   const bool sampled = params.mesh == MeshUse::sample && !geometry.triangles.empty();
-  Cloud cloud = sampled ? sample(geometry, params, context) : decode_cloud(geometry, params.scale, context);
-  set_sensor(geometry, params, cloud);
+  const auto decoded = [&](double scale) {
+    return sampled ? sample(geometry, params, scale, context) : decode_cloud(geometry, scale, context);
+  };
+  const bool known = params.unit != Unit::automatic;
+  double scale = params.scale * (known ? metres_per(params.unit) : 1.0);
+  Cloud cloud = decoded(scale);
+  if (!known) {
+    const double unit = unit_of(geometry, params, cloud, context);
+    if (unit != 1.0) cloud = decoded(scale *= unit);
+  }
+  set_sensor(geometry, params, scale, cloud);
   hint_at_unit(path, cloud, context);
   warn_of_duplicates(path, cloud, context);
   return {std::move(cloud)};

@@ -29,16 +29,33 @@ void write_obj_files(const Mesh& mesh, const FaceImages& images, const std::file
   file.commit();
 }
 
-void write_one(const Mesh& mesh, const FaceImages& images, const std::string& extension, bool binary,
-               const std::filesystem::path& target) {
+void write_one(const Mesh& mesh, const FaceImages& images, const Eigen::Vector3d& up, const std::string& extension,
+               bool binary, const std::filesystem::path& target) {
   AtomicFile file(target);
   if (extension == ".ply")
     write_ply(mesh, binary, file);
   else if (extension == ".stl")
     write_stl(mesh, binary, file);
   else
-    write_glb(mesh, images, file);
+    write_glb(mesh, images, up, file);
   file.commit();
+}
+
+double units_per_metre(WriteMesh::Unit unit) {
+  switch (unit) {
+    case WriteMesh::Unit::centimetre: return 100;
+    case WriteMesh::Unit::millimetre: return 1000;
+    case WriteMesh::Unit::inch: return 1 / 0.0254;
+    case WriteMesh::Unit::foot: return 1 / 0.3048;
+    default: return 1;
+  }
+}
+
+Mesh scaled(const Mesh& mesh, double factor) {
+  Mesh result = mesh;
+  result.origin *= factor;
+  for (auto& v : result.vertices) v *= factor;
+  return result;
 }
 
 }  // namespace
@@ -54,11 +71,19 @@ WriteMesh::Out WriteMesh::run(const In& in, const Params& params, Context& conte
     images = FaceImages(*in.textures, *in.mesh, context);
   else if (in.textures)
     context.warn("textures are not written to " + extension + " files, only to .glb and .obj");
+  const double factor = units_per_metre(params.unit);
+  if (extension == ".glb" && factor != 1) throw Error("a .glb file is in metres by its rules", "set `unit: m`");
+  if (images.size() > 0 && factor != 1)
+    throw Error("images are written with meshes in metres only", "set `unit: m`, or do not wire `textures`");
+  const Mesh other = factor != 1 ? scaled(*in.mesh, factor) : Mesh{};
+  const Mesh& mesh = factor != 1 ? other : *in.mesh;
+  const Eigen::Vector3d up =
+      in.transform ? Eigen::Vector3d(in.transform->rotation.transpose().col(2)) : Eigen::Vector3d::UnitZ();
   const auto target = context.output(params.path.path);
   if (extension == ".obj")
-    write_obj_files(*in.mesh, images, target, context);
+    write_obj_files(mesh, images, target, context);
   else
-    write_one(*in.mesh, images, extension, params.binary, target);
+    write_one(mesh, images, up, extension, params.binary, target);
   context.wrote(target);
   return {};
 }

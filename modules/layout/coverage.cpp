@@ -8,6 +8,7 @@
 #include <map>
 
 #include "graph/api/error.hpp"
+#include "modules/layout/enclosure.hpp"
 
 namespace atrium::layout {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 /// which ceiling it shows, and whether anything stands there.
 class Layers {
  public:
-  Layers(const Structure& structure, double pixel, const StoreyCells& storey)
+  Layers(const Structure& structure, const std::vector<Footprint>& footprints, double pixel, const StoreyCells& storey)
       : fine_(std::max(2, static_cast<int>(std::lround(pixel / (2 * finest)))) * 2), pixel_(pixel / fine_) {
     Eigen::AlignedBox2d box;
     for (const auto& v : storey.vertices) box.extend(v);
@@ -36,8 +37,8 @@ class Layers {
     any_.assign(size, 0);
     cell_.assign(size, -1);
     for (std::size_t c = 0; c < storey.cells.size(); ++c) mark_cell(storey, c);
-    paint(structure, storey.floors, -1, floor_);
-    paint(structure, storey.ceilings, 1, ceiling_);
+    paint(structure, footprints, storey.floors, -1, floor_);
+    paint(structure, footprints, storey.ceilings, 1, ceiling_);
     fill(*structure.primitives->cloud, storey);
   }
 
@@ -89,26 +90,33 @@ class Layers {
   }
 
   /// Where several surfaces were seen: the lowest (direction −1) or the highest.
-  void paint(const Structure& structure, const std::vector<CellSurface>& surfaces, int direction,
-             std::vector<std::int32_t>& layer) const {
-    const PlanePrimitives& planes = *structure.primitives;
+  void paint(const Structure& structure, const std::vector<Footprint>& footprints,
+             const std::vector<CellSurface>& surfaces, int direction, std::vector<std::int32_t>& layer) const {
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
       if (surfaces[s].primitive < 0) continue;
-      paint_one(planes, surfaces[s].primitive, surfaces, s, direction, layer);
-      for (const auto joined : surfaces[s].joined) paint_one(planes, joined, surfaces, s, direction, layer);
+      std::vector<std::int32_t> primitives{surfaces[s].primitive};
+      primitives.insert(primitives.end(), surfaces[s].joined.begin(), surfaces[s].joined.end());
+      for (const auto primitive : primitives)
+        paint_one(*structure.primitives, primitive, footprints[static_cast<std::size_t>(primitive)].spacing, surfaces,
+                  s, direction, layer);
     }
   }
 
-  void paint_one(const PlanePrimitives& planes, std::int32_t primitive, const std::vector<CellSurface>& surfaces,
-                 std::size_t s, int direction, std::vector<std::int32_t>& layer) const {
+  /// `spacing`: a surface that is sparser than others covers the squares around its points as well.
+  void paint_one(const PlanePrimitives& planes, std::int32_t primitive, double spacing,
+                 const std::vector<CellSurface>& surfaces, std::size_t s, int direction,
+                 std::vector<std::int32_t>& layer) const {
+    const double half = spacing > fine_ * pixel_ ? spacing / 2 : 0;
     for (const auto i : planes.primitives[static_cast<std::size_t>(primitive)].inliers) {
       const Eigen::Vector2d p = planes.cloud->points[i].head<2>().cast<double>();
       if (!holds(p)) continue;
-      std::int32_t& known = layer[index(column(p.x()), row(p.y()))];
-      if (known >= 0 &&
-          direction * (surfaces[s].height_at(p) - surfaces[static_cast<std::size_t>(known)].height_at(p)) <= 0)
-        continue;
-      known = static_cast<std::int32_t>(s);
+      for (int y = row(p.y() - half); y <= row(p.y() + half); ++y)
+        for (int x = column(p.x() - half); x <= column(p.x() + half); ++x) {
+          std::int32_t& known = layer[index(x, y)];
+          if (known < 0 ||
+              direction * (surfaces[s].height_at(p) - surfaces[static_cast<std::size_t>(known)].height_at(p)) > 0)
+            known = static_cast<std::int32_t>(s);
+        }
     }
   }
 
@@ -205,10 +213,23 @@ double reaches(const Footprint& wall, const Eigen::Vector2d& p, double floor, do
   return std::min(1.0, seen / (enough * (last - first + 1)));
 }
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+/// Whether a wall's raster shows a tall face at p: it may end below the ceiling where that was not scanned.
+bool is_tall(const Footprint& wall, const Eigen::Vector2d& p, double floor, double ceiling) {
+  constexpr double enough = 1, least_share = 0.4;  // metres; of the storey's height
+  const Raster& r = wall.raster;
+  const int column = r.column(wall.along.dot(p));
+  int seen = 0;
+  for (int row = std::max(0, r.row(floor)); row < r.height; ++row)
+    seen += r.at(column, row) || r.at(column - 1, row) || r.at(column + 1, row) ? 1 : 0;
+  return seen * r.pixel >= std::min(enough, least_share * (ceiling - floor));
+}
+
+/// Where most columns of a wall end: the highest point of each stands below the wall's end by up to the spacing.
+double upper_end(std::vector<double>& tops) {
+  constexpr double most = 0.8;
+  const auto rank = tops.begin() + static_cast<std::ptrdiff_t>(most * static_cast<double>(tops.size() - 1));
+  std::nth_element(tops.begin(), rank, tops.end());
+  return *rank;
 }
 
 /// Where a wall ends over p, at most at the storey's own end; unknown_top: it has no points there.
@@ -219,8 +240,28 @@ double top_at(const Footprint& wall, const Eigen::Vector2d& p, const StoreyCells
   return top > storey.floor_height ? std::min(top, storey.high) : unknown_top;
 }
 
-void measure_edge(const Structure& structure, const std::vector<Footprint>& footprints, double pixel, bool scanned,
-                  const StoreyCells& storey, CellEdge& edge) {
+/// Walls that begin over one's head: sides of beams and soffits, and what stands over a lower ceiling. They cut cells,
+/// so that ceilings can step there, but they end no room. Where most of a scan's walls begin there, it shows no lower
+/// part.
+std::vector<bool> hanging_walls(const Structure& structure, const std::vector<Footprint>& footprints,
+                                const StoreyCells& storey) {
+  constexpr double head = 1.8;  // metres
+  std::vector<bool> hanging(footprints.size(), false);
+  double all = 0, above = 0;
+  for (const auto& line : storey.lines)
+    for (const auto primitive : line.primitives) {
+      const auto i = static_cast<std::size_t>(primitive);
+      hanging[i] =
+          structure.classes[i] == SurfaceClass::wall && footprints[i].raster.low.y() > storey.floor_height + head;
+      (hanging[i] ? above : all) += footprints[i].raster.area();
+    }
+  if (above > all) hanging.assign(footprints.size(), false);
+  return hanging;
+}
+
+void measure_edge(const Structure& structure, const std::vector<Footprint>& footprints,
+                  const std::vector<bool>& hanging, double pixel, bool scanned, const StoreyCells& storey,
+                  CellEdge& edge) {
   if (edge.line < 0) return;
   const CellLine& line = storey.lines[static_cast<std::size_t>(edge.line)];
   if (line.primitives.empty()) return;
@@ -232,22 +273,27 @@ void measure_edge(const Structure& structure, const std::vector<Footprint>& foot
   for (int i = 0; i < samples; ++i) {
     const Eigen::Vector2d p = a + (b - a) * ((i + 0.5) / samples);
     double seen[2] = {0, 0};
+    bool tall[2] = {false, false};
     double top[2] = {unknown_top, unknown_top};
     for (const auto primitive : line.primitives) {
       const auto index = static_cast<std::size_t>(primitive);
+      if (hanging[index]) continue;
       const bool looks_left = structure.primitives->primitives[index].plane.normal.head<2>().dot(left) > 0;
       const double ceiling = ceiling_over(storey, scanned, looks_left ? edge.left : edge.right, p);
       const std::size_t side = looks_left ? 0 : 1;
       seen[side] = std::max(seen[side], reaches(footprints[index], p, storey.floor_height, ceiling));
+      tall[side] = tall[side] || is_tall(footprints[index], p, storey.floor_height, ceiling);
       top[side] = std::max(top[side], top_at(footprints[index], p, storey));
     }
     for (std::size_t side = 0; side < 2; ++side)
       if (top[side] != unknown_top) tops[side].push_back(top[side]);
+    edge.face_left += tall[0] ? 1.0 / samples : 0;
+    edge.face_right += tall[1] ? 1.0 / samples : 0;
     edge.wall_left += seen[0] / samples;
     edge.wall_right += seen[1] / samples;
   }
-  if (!tops[0].empty()) edge.top_left = median(tops[0]);
-  if (!tops[1].empty()) edge.top_right = median(tops[1]);
+  if (!tops[0].empty()) edge.top_left = upper_end(tops[0]);
+  if (!tops[1].empty()) edge.top_right = upper_end(tops[1]);
 }
 
 }  // namespace
@@ -289,11 +335,13 @@ void measure_coverage(const Structure& structure, const std::vector<Footprint>& 
                       StoreyCells& storey) {
   // Beside a wall, noise and drift carry points of the floor through it.
   const double margin = 3 * mean_residual(*structure.primitives);
-  const Layers layers(structure, pixel, storey);
+  const Layers layers(structure, footprints, pixel, storey);
   for (std::size_t c = 0; c < storey.cells.size(); ++c)
     measure_cell(layers, pixel, margin, storey, static_cast<std::int32_t>(c), storey.cells[c]);
   const bool scanned = ceiling_scanned(storey);
-  for (auto& edge : storey.edges) measure_edge(structure, footprints, pixel, scanned, storey, edge);
+  const std::vector<bool> hanging = hanging_walls(structure, footprints, storey);
+  for (auto& edge : storey.edges) measure_edge(structure, footprints, hanging, pixel, scanned, storey, edge);
+  measure_enclosure(storey);
 }
 
 }  // namespace atrium::layout

@@ -41,6 +41,14 @@ void open_up(FaceEvidence& evidence, double farthest) {
   evidence.open.cover(evidence.through, std::max(farthest, 0.0));
 }
 
+/// The building and as much around it as its faces look behind themselves.
+Eigen::AlignedBox3d around(const Building& building, const Openings::Params& params) {
+  Eigen::AlignedBox3d box;
+  for (const auto& v : building.vertices) box.extend(v);
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(2 * depth_behind(params));
+  return {box.min() - margin, box.max() + margin};
+}
+
 }  // namespace
 
 double depth_behind(const Openings::Params& params) {
@@ -49,7 +57,11 @@ double depth_behind(const Openings::Params& params) {
 }
 
 EvidenceFinder::EvidenceFinder(const Building& building, const Cloud& cloud, const Openings::Params& params)
-    : building_(building), cloud_(cloud), params_(params), space_(cloud, params.pixel), seen_by_(cloud.sensors.size()) {
+    : building_(building),
+      cloud_(cloud),
+      params_(params),
+      space_(cloud, params.pixel, around(building, params)),
+      seen_by_(cloud.sensors.size()) {
   for (std::size_t r = 0; r < building.rooms.size(); ++r) views_.push_back(view_of(static_cast<std::int32_t>(r)));
   if (seen_by_.empty()) return;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {

@@ -93,8 +93,10 @@ double reach_of(std::uint32_t around, std::uint32_t usual) {
 
 }  // namespace
 
-FreeSpace::FreeSpace(const Cloud& cloud, double voxel) : cloud_(cloud), voxel_(voxel) {
-  const Eigen::AlignedBox3d box = inner_box(cloud);
+FreeSpace::FreeSpace(const Cloud& cloud, double voxel, const Eigen::AlignedBox3d& region)
+    : cloud_(cloud), voxel_(voxel) {
+  Eigen::AlignedBox3d box = inner_box(cloud).intersection(region);
+  if (box.isEmpty()) box = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()};
   low_ = box.min();
   const auto cells = [&](double edge) -> Eigen::Array<std::int64_t, 3, 1> {
     return (box.sizes() / edge).array().ceil().cast<std::int64_t>() + 1;

@@ -13,8 +13,9 @@ namespace atrium::layout {
 /// sparse; points that are nearly alone occupy nothing.
 class FreeSpace {
  public:
-  /// `voxel`: edge of what a point occupies at least, metres.
-  FreeSpace(const Cloud& cloud, double voxel);
+  /// `voxel`: edge of what a point occupies at least, metres. Points out of `region` are left out: memory and time grow
+  /// with it.
+  FreeSpace(const Cloud& cloud, double voxel, const Eigen::AlignedBox3d& region);
 
   /// Calls visit(point) for all points in the box and some around it.
   template <class Visit>

@@ -7,11 +7,19 @@
 
 #include "modules/layout/inferred_ceilings.hpp"
 #include "modules/layout/min_cut.hpp"
+#include "modules/layout/raster.hpp"
 
 namespace atrium::layout {
 namespace {
 
 constexpr double none = 1e6;  // the cost of what must not be
+
+/// The mean of a cell's corners.
+Eigen::Vector2d middle_of(const StoreyCells& storey, const LayoutCell& cell) {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const auto c : cell.corners) middle += storey.vertices[c];
+  return middle / static_cast<double>(cell.corners.size());
+}
 
 /// One labelling: the cells of all rooms of a storey by surfaces.
 class Labelling {
@@ -25,19 +33,22 @@ class Labelling {
     costs_.assign(cells_.size(), std::vector<double>(surfaces.size(), 0));
   }
 
-  /// `covers`: of each cell. Cells where `forbidden(cell, surface)` pay so much that only want of choice forgives it.
+  /// `covers`: of each cell. What a surface leaves uncovered costs its area, less where the surface that was seen is
+  /// near: uneven ceilings are one. Pairs that `forbidden(cell, surface)` rejects are chosen only where all are
+  /// rejected.
   template <class Covers, class Forbidden>
   void set_costs(Covers covers, Forbidden forbidden) {
     for (std::size_t e = 0; e < cells_.size(); ++e) {
       const LayoutCell& cell = storey_.cells[cells_[e]];
-      double seen = 0;
-      for (const CellCover& cover : covers(cell)) seen += cover.share;
-      for (std::size_t s = 0; s < surfaces_.size(); ++s) costs_[e][s] = cell.area * seen;
-      for (const CellCover& cover : covers(cell))
-        costs_[e][static_cast<std::size_t>(cover.surface)] -= cell.area * cover.share;
+      const Eigen::Vector2d middle = middle_of(storey_, cell);
       for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+        for (const CellCover& cover : covers(cell))
+          costs_[e][s] += cell.area * cover.share * misfit(s, static_cast<std::size_t>(cover.surface), middle);
         // What nothing shows costs a little, so that inferred surfaces and far ones give way.
         costs_[e][s] += surfaces_[s].primitive < 0 ? 0.01 * cell.area : 0;
+        // A slope that goes on where it was not seen is soon far from what is there.
+        constexpr double sloping_on = 0.15;
+        if (!is_level(surfaces_[s].plane)) costs_[e][s] += sloping_on * cell.area * (1 - share_of(covers(cell), s));
         if (forbidden(cell, s)) costs_[e][s] += none;
       }
     }
@@ -83,6 +94,18 @@ class Labelling {
   static bool is_of_a_room(const std::map<std::int32_t, std::int32_t>& inferred, std::size_t surface) {
     return std::any_of(inferred.begin(), inferred.end(),
                        [&](const auto& own) { return own.second == static_cast<std::int32_t>(surface); });
+  }
+
+  static double share_of(const std::vector<CellCover>& covers, std::size_t surface) {
+    double share = 0;
+    for (const CellCover& cover : covers) share += static_cast<std::size_t>(cover.surface) == surface ? cover.share : 0;
+    return share;
+  }
+
+  /// How badly one surface stands for another at a place: 0 to 1.
+  double misfit(std::size_t a, std::size_t b, const Eigen::Vector2d& p) const {
+    constexpr double another = 0.5;  // metres
+    return a == b ? 0 : std::min(1.0, std::abs(surfaces_[a].height_at(p) - surfaces_[b].height_at(p)) / another);
   }
 
   /// Area of the step between two surfaces over an edge, and the border itself.
@@ -155,12 +178,10 @@ class Labelling {
   std::vector<std::size_t> labels_;
 };
 
-/// The height of a ceiling over a floor at the mean of a cell's corners.
+/// The height of a ceiling over a floor in the middle of a cell.
 double clearance(const StoreyCells& storey, const LayoutCell& cell, const CellSurface& floor,
                  const CellSurface& ceiling) {
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const auto c : cell.corners) middle += storey.vertices[c];
-  middle /= static_cast<double>(cell.corners.size());
+  const Eigen::Vector2d middle = middle_of(storey, cell);
   return ceiling.height_at(middle) - floor.height_at(middle);
 }
 

@@ -118,7 +118,10 @@ Partition::Out Partition::run(const In& in, const Params& params, Context& conte
   out.cells.origin = planes.cloud->origin;
   out.cells.pixel = fitting_pixel(planes, params.pixel, context);
   const std::vector<Footprint> seen = footprints(planes, out.cells.pixel, context);
-  for (const auto& storey : storey_planes(*in.structure, seen, params.min_gap)) {
+  // What the noise parts is one surface.
+  constexpr double noise_levels = 3;
+  const double gap = std::max(params.min_gap, noise_levels * mean_residual(planes));
+  for (const auto& storey : storey_planes(*in.structure, seen, gap)) {
     context.check_cancelled();
     out.cells.storeys.push_back(cut_storey(storey, seen, params));
   }

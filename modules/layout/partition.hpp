@@ -44,7 +44,8 @@ struct Partition {
       std::tuple{param(&Params::pixel, "pixel", metres, within(0.01, 1),
                        "Least edge of the squares in which coverage is counted."),
                  param(&Params::min_gap, "min_gap", metres, within(0.001, 1),
-                       "Parallel walls nearer to each other than this share a line: less than the thinnest wall."),
+                       "Parallel walls nearer to each other than this share a line: less than the thinnest wall. Three "
+                       "times the noise where that is more."),
                  param(&Params::extension, "extension", metres, within(0, 1000),
                        "How far a wall's line reaches beyond its points."),
                  param(&Params::margin, "margin", metres, within(0.1, 100), "Width of the outside around all points.")};

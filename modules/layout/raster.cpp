@@ -26,12 +26,42 @@ std::vector<Eigen::Vector2d> flattened(const PlanePrimitive& primitive, const Cl
   return points;
 }
 
+/// How many times wider squares a surface fills: a scan can be sparser on the ceiling than elsewhere.
+int times_until_filled(const Raster& raster) {
+  constexpr double full = 0.6;
+  constexpr int most = 4;
+  constexpr double least = 0.5;  // m²: of less, most squares stand at the border
+  if (raster.area() < least) return 1;
+  int times = 1;
+  for (double area = raster.area(); times < most && area > 0; ++times) {
+    // Doubled squares hold a quarter as many of a full surface, and as many of single points.
+    const double doubled = raster.coarse(2 * times).area();
+    const double own = times == 1 ? area : raster.coarse(times).area();
+    if (own >= full * doubled) break;
+  }
+  return times;
+}
+
 }  // namespace
 
 double Raster::area() const { return static_cast<double>(std::count(bits.begin(), bits.end(), 1)) * pixel * pixel; }
 
-bool Raster::has_patch(double patch) const {
-  constexpr double full = 0.8;
+Raster Raster::coarse(int times) const {
+  Raster result;
+  result.low = low;
+  result.pixel = times * pixel;
+  result.width = (width + times - 1) / times;
+  result.height = (height + times - 1) / times;
+  result.bits.assign(static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height), 0);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (at(x, y))
+        result.bits[static_cast<std::size_t>(y / times) * static_cast<std::size_t>(result.width) +
+                    static_cast<std::size_t>(x / times)] = 1;
+  return result;
+}
+
+bool Raster::has_patch(double patch, double full) const {
   const int side = std::max(1, static_cast<int>(std::lround(patch / pixel)));
   if (side > width || side > height) return false;
   const auto columns = static_cast<std::size_t>(width) + 1;
@@ -79,6 +109,7 @@ Footprint footprint(const PlanePrimitive& primitive, const Cloud& cloud, double 
   Footprint result;
   const std::vector<Eigen::Vector2d> points = flattened(primitive, cloud, result);
   result.raster = rasterize(points, pixel);
+  result.spacing = pixel * times_until_filled(result.raster);
   if (!result.upright) return result;
   result.tops.assign(static_cast<std::size_t>(result.raster.width), std::numeric_limits<double>::lowest());
   for (const auto& p : points) {

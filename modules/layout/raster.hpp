@@ -27,8 +27,10 @@ struct Raster {
   Eigen::Vector2d centre(int x, int y) const { return low + Eigen::Vector2d(x + 0.5, y + 0.5) * pixel; }
   Eigen::Vector2d high() const { return low + Eigen::Vector2d(width, height) * pixel; }
   double area() const;  ///< of the squares that hold points, square metres
-  /// Whether four fifths of some square of this width (metres) hold points.
-  bool has_patch(double patch) const;
+  /// The same in squares `times` as wide.
+  Raster coarse(int times) const;
+  /// Whether this share of some square of this width (metres) holds points.
+  bool has_patch(double patch, double full = 0.8) const;
 };
 
 /// The squares that points fall into.
@@ -41,6 +43,7 @@ struct Footprint {
   bool upright = false;
   Eigen::Vector2d along = Eigen::Vector2d::UnitX();  ///< of walls
   Raster raster;
+  double spacing = 0;  ///< edge of the squares that this surface fills, metres: the raster's, or up to four times it
   std::vector<double> tops;  ///< of walls, per column: the greatest z of its points; less than any z without points
 };
 Footprint footprint(const PlanePrimitive& primitive, const Cloud& cloud, double pixel);

@@ -178,7 +178,11 @@ std::vector<RoomPart> connected_parts(const StoreyCells& storey, std::size_t ind
     const LayoutCell& right = storey.cells[static_cast<std::size_t>(edge.right)];
     if (left.room < 0 || left.room != right.room) continue;
     const auto open = [&](std::uint32_t vertex) {
-      return clearance_at(storey, left, vertex) > 0 && clearance_at(storey, right, vertex) > 0;
+      if (clearance_at(storey, left, vertex) <= 0 || clearance_at(storey, right, vertex) <= 0) return false;
+      const Eigen::Vector2d& p = storey.vertices[vertex];
+      return std::min(ceiling_at(storey, left, p), ceiling_at(storey, right, p)) -
+                 std::max(floor_at(storey, left, p), floor_at(storey, right, p)) >
+             one_height;
     };
     if (open(edge.from) || open(edge.to))
       sets.union_set(static_cast<std::size_t>(edge.left), static_cast<std::size_t>(edge.right));

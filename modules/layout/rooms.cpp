@@ -41,17 +41,16 @@ class Energy {
 
   void add_cell(std::size_t i) {
     const LayoutCell& cell = storey_.cells[i];
-    double inside = 0;
-    double hidden = 0;
-    if (ceiling_) {
-      inside = params_.ceiling_weight * cell.ceiling_cover + params_.floor_weight * cell.floor_cover;
-      hidden = 1 - cell.ceiling_cover;
-    } else {
-      const double seen = std::max(cell.floor_cover, cell.any_cover);
-      inside = params_.ceiling_weight * seen;
-      hidden = 1 - seen;
-    }
-    cut_.add(i, inside * cell.area, params_.outside_weight * hidden * cell.area);
+    // Where no ceiling was scanned, what stands between walls that look towards it counts for one.
+    const double shown = std::max(cell.ceiling_cover, within_walls(cell) * std::max(cell.floor_cover, cell.any_cover));
+    const double inside = params_.ceiling_weight * shown + params_.floor_weight * cell.floor_cover;
+    cut_.add(i, inside * cell.area, params_.outside_weight * (1 - shown) * cell.area);
+  }
+
+  /// 0: outside, 1: surely between the walls of a room.
+  static double within_walls(const LayoutCell& cell) {
+    constexpr double least = 0.5, enough = 0.75;
+    return std::clamp((cell.enclosed - least) / (enough - least), 0.0, 1.0);
   }
 
   void add_edge(std::size_t index) {
@@ -120,6 +119,49 @@ std::vector<Room> connected(const StoreyCells& storey, std::size_t index, const 
   return rooms;
 }
 
+/// Parts of the outside that one room surrounds, and around which hardly a wall was seen, belong to it: a column shows
+/// its faces.
+void fill_islands(const StoreyCells& storey, double min_seen, std::vector<Room>& rooms) {
+  constexpr std::size_t none = ~std::size_t{0};
+  std::vector<std::size_t> room_of(storey.cells.size(), none);
+  for (std::size_t r = 0; r < rooms.size(); ++r)
+    for (const auto cell : rooms[r].cells) room_of[cell] = r;
+  std::vector<std::size_t> rank(storey.cells.size()), parent(storey.cells.size());
+  boost::disjoint_sets<std::size_t*, std::size_t*> sets(rank.data(), parent.data());
+  for (std::size_t i = 0; i < storey.cells.size(); ++i) sets.make_set(i);
+  const auto outside = [&](std::int32_t cell) { return room_of[static_cast<std::size_t>(cell)] == none; };
+  for (const auto& edge : storey.edges)
+    if (edge.left >= 0 && edge.right >= 0 && outside(edge.left) && outside(edge.right))
+      sets.union_set(static_cast<std::size_t>(edge.left), static_cast<std::size_t>(edge.right));
+  struct Part {
+    std::size_t room = none;
+    bool island = true;  // all around is this room
+    double length = 0, seen = 0;
+  };
+  std::vector<Part> parts(storey.cells.size());
+  for (const auto& edge : storey.edges) {
+    if (edge.left < 0 || edge.right < 0) {
+      const std::int32_t cell = std::max(edge.left, edge.right);
+      if (cell >= 0 && outside(cell)) parts[sets.find_set(static_cast<std::size_t>(cell))].island = false;
+    } else if (outside(edge.left) != outside(edge.right)) {
+      const bool left_out = outside(edge.left);
+      Part& part = parts[sets.find_set(static_cast<std::size_t>(left_out ? edge.left : edge.right))];
+      const std::size_t room = room_of[static_cast<std::size_t>(left_out ? edge.right : edge.left)];
+      part.island = part.island && (part.room == none || part.room == room);
+      part.room = room;
+      part.length += length_of(storey, edge);
+      part.seen += length_of(storey, edge) * (left_out ? edge.wall_right : edge.wall_left);
+    }
+  }
+  for (std::size_t i = 0; i < storey.cells.size(); ++i) {
+    if (room_of[i] != none) continue;
+    const Part& part = parts[sets.find_set(i)];
+    if (!part.island || part.room == none || part.seen >= min_seen * part.length) continue;
+    rooms[part.room].cells.push_back(i);
+    rooms[part.room].area += storey.cells[i].area;
+  }
+}
+
 }  // namespace
 
 Rooms::Out Rooms::run(const In& in, const Params& params, Context& context) {
@@ -129,7 +171,8 @@ Rooms::Out Rooms::run(const In& in, const Params& params, Context& context) {
     context.check_cancelled();
     StoreyCells& storey = out.cells.storeys[s];
     for (auto& cell : storey.cells) cell.room = -1;
-    const auto found = connected(storey, s, Energy(storey, params).solve());
+    auto found = connected(storey, s, Energy(storey, params).solve());
+    fill_islands(storey, params.min_island, found);
     rooms.insert(rooms.end(), found.begin(), found.end());
   }
   std::erase_if(

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "modules/layout/raster.hpp"
+#include "modules/layout/shelter.hpp"
 
 namespace atrium::layout {
 namespace {
@@ -16,11 +18,18 @@ struct Level {
   double height = 0;  ///< mean z of the points
   double top = 0;     ///< greatest z
   double area = 0;
+  bool raised = false;   ///< a floor that walls stand on, however high it lies over the main one
+  double sheltered = 1;  ///< of a floor: the share of it that is part of a building
   bool up = false, slanted = false;
+  double sheltered_area() const { return area * sheltered; }
 };
 
-constexpr double main_share = 0.5;   // of the largest floor: as large as one
-constexpr double least_large = 2.0;  // m²: what may be a slab at all
+constexpr double main_share = 0.5;        // of the largest floor: as large as one
+constexpr double least_large = 2.0;       // m²: what may be a slab at all
+constexpr double lower_ceilings = 0.5;    // metres under the main one, where no floor tells what is a ceiling
+constexpr double least_raised = 3.0;      // m²: a smaller level surface over the floor is furniture
+constexpr double least_walled = 0.7;      // of the rim of a raised floor; a bed in a corner has half
+constexpr double least_sheltered = 0.25;  // of a floor: less of it than this is the ground outside
 
 class Finder {
  public:
@@ -29,8 +38,9 @@ class Finder {
     footprints_ = footprints(planes, pixel_, context);
     for (std::size_t i = 0; i < planes.primitives.size(); ++i)
       if (!footprints_[i].upright && !planes.primitives[i].inliers.empty()) levels_.push_back(level(i));
+    find_shelter();
     for (const auto& l : levels_)
-      if (!l.slanted) largest_ = std::max(largest_, l.area);
+      if (!l.slanted) largest_ = std::max(largest_, l.sheltered_area());
   }
 
   Structure run() {
@@ -44,6 +54,7 @@ class Finder {
     result.storey_count = static_cast<std::int32_t>(cuts_.size()) + 1;
     for (std::int32_t s = 0; s < result.storey_count; ++s) sort_levels(s, result);
     for (std::size_t i = 0; i < planes_.primitives.size(); ++i) sort_wall(i, result);
+    leave_out_far_walls(result);
     return result;
   }
 
@@ -59,13 +70,52 @@ class Finder {
       result.top = std::max(result.top, z);
     }
     result.height /= static_cast<double>(primitive.inliers.size());
-    result.area = footprints_[i].raster.area();
+    result.area = filled(i).area();
     result.up = primitive.plane.normal.z() > 0;
     result.slanted = !is_level(primitive.plane);
     return result;
   }
 
-  bool large(const Level& l) const { return !l.slanted && l.area >= least_large && l.area >= 0.05 * largest_; }
+  /// A plane's raster in squares that it fills.
+  Raster filled(std::size_t plane) const {
+    const Footprint& f = footprints_[plane];
+    return f.raster.coarse(std::max(1, static_cast<int>(std::lround(f.spacing / f.raster.pixel))));
+  }
+
+  /// Whether it holds a square of min_width, or one of three by three of the squares that a sparse surface fills.
+  bool is_wide(const Level& l) const {
+    const Raster raster = filled(l.primitive);
+    return raster.has_patch(std::max(params_.min_width, raster.pixel > pixel_ ? 3 * raster.pixel : 0), 0.75);
+  }
+
+  /// What no ceiling covers and no walls enclose is outside. Where nothing is sheltered, nothing is known of it.
+  void find_shelter() {
+    constexpr double mostly = 0.6;  // of the directions: beside a facade it is half of them at most
+    const Shelter shelter(planes_, footprints_, params_.min_clearance);
+    double best = 0;
+    for (Level& l : levels_) {
+      if (!l.up || l.area < params_.min_area) continue;
+      l.sheltered = shelter.covered(l.primitive);
+      if (const double enclosed = l.sheltered < mostly ? shelter.enclosed(l.primitive) : 0; enclosed > mostly)
+        l.sheltered = std::max(l.sheltered, enclosed);
+      best = std::max(best, l.sheltered_area());
+      if (l.slanted || l.area < least_raised) continue;
+      const Shelter::Piece piece = shelter.largest_piece(l.primitive);
+      l.raised = piece.area >= least_raised && piece.walled >= least_walled;
+    }
+    double left_out = 0;
+    for (Level& l : levels_) {
+      if (best < params_.min_area) l.sheltered = 1;
+      if (l.up && l.sheltered < least_sheltered && l.area >= least_large) left_out += l.area;
+    }
+    if (left_out > 0)
+      context_.info(fmt::format("{:.0f} m2 of level surfaces lie outside: no ceiling covers and no walls enclose them",
+                                left_out));
+  }
+
+  bool large(const Level& l) const {
+    return !l.slanted && l.sheltered_area() >= least_large && l.sheltered_area() >= 0.05 * largest_;
+  }
 
   /// Square metres of b over a.
   double overlap(const Level& a, const Level& b) const {
@@ -135,25 +185,24 @@ class Finder {
     const Level* main_floor = nullptr;
     const Level* main_ceiling = nullptr;
     for (const auto& l : levels_) {
-      if (l.slanted || storey_of(l.height) != storey) continue;
+      if (l.slanted || storey_of(l.height) != storey || (l.up && l.sheltered < least_sheltered)) continue;
       const Level*& best = l.up ? main_floor : main_ceiling;
-      if (best == nullptr || l.area > best->area) best = &l;
+      if (best == nullptr || l.sheltered_area() > best->sheltered_area()) best = &l;
     }
     if (main_floor != nullptr && main_floor->area < params_.min_area) main_floor = nullptr;
     if (main_ceiling != nullptr && main_ceiling->area < params_.min_area) main_ceiling = nullptr;
     if (main_floor == nullptr) context_.warn(fmt::format("storey {}: no floor was found", storey));
     const double ground = main_floor != nullptr     ? main_floor->height
-                          : main_ceiling != nullptr ? main_ceiling->height - params_.min_clearance
+                          : main_ceiling != nullptr ? main_ceiling->height - params_.min_clearance - lower_ceilings
                           : storey > 0              ? cuts_[static_cast<std::size_t>(storey) - 1]
                                                     : -1e9;
     bool ceilings = false;
     for (const auto& l : levels_) {
-      if (storey_of(l.height) != storey || l.area < params_.min_area ||
-          !footprints_[l.primitive].raster.has_patch(params_.min_width))
-        continue;
+      if (storey_of(l.height) != storey || l.area < params_.min_area || !is_wide(l)) continue;
+      if (l.up && l.sheltered < least_sheltered) continue;
       const bool is_floor = l.up && main_floor != nullptr &&
                             (l.height <= ground + params_.max_step ||
-                             (l.area >= main_share * main_floor->area &&
+                             ((l.area >= main_share * main_floor->area || l.raised) &&
                               ((main_ceiling != nullptr && main_ceiling->height - l.height >= params_.min_clearance) ||
                                has_ceiling_of_its_own(l))));
       const bool is_ceiling = !l.up && (l.slanted ? l.top : l.height) >= ground + params_.min_clearance;
@@ -180,6 +229,31 @@ class Finder {
       result.storeys[i] = s;
     }
     result.classes[i] = SurfaceClass::wall;
+  }
+
+  /// Facades across the street.
+  void leave_out_far_walls(Structure& result) const {
+    constexpr double far = 3;  // metres from any floor or ceiling
+    std::vector<Eigen::AlignedBox2d> boxes;
+    for (std::size_t i = 0; i < result.classes.size(); ++i)
+      if (result.classes[i] == SurfaceClass::floor || result.classes[i] == SurfaceClass::ceiling)
+        boxes.emplace_back(footprints_[i].raster.low, footprints_[i].raster.high());
+    if (boxes.empty()) return;
+    for (std::size_t i = 0; i < result.classes.size(); ++i) {
+      if (result.classes[i] != SurfaceClass::wall) continue;
+      const Raster& r = footprints_[i].raster;
+      const Plane& plane = planes_.primitives[i].plane;
+      const double flat = plane.normal.head<2>().norm();
+      const Eigen::Vector2d foot =
+          -(plane.offset + plane.normal.z() * (r.low.y() + r.high().y()) / 2) / (flat * flat) * plane.normal.head<2>();
+      double nearest = far + 1;
+      for (double t = r.low.x(); t <= r.high().x(); t += std::max(1.0, r.pixel))
+        for (const auto& box : boxes)
+          nearest = std::min(nearest, box.exteriorDistance(Eigen::Vector2d(foot + t * footprints_[i].along)));
+      if (nearest <= far) continue;
+      result.classes[i] = SurfaceClass::object;
+      result.storeys[i] = -1;
+    }
   }
 
   const PlanePrimitives& planes_;

@@ -20,6 +20,7 @@ struct Frame {
   Eigen::Vector3f corner = Eigen::Vector3f::Zero(), along = Eigen::Vector3f::Zero(), across = Eigen::Vector3f::Zero();
   float offset = 0, length = 0, width = 0;
   std::uint32_t primitive = none;
+  bool normals_agree = false;  ///< those of its points look to the side that it was seen from
 };
 
 Frame frame_of(const MeasuredPlane& plane, std::size_t index) {
@@ -35,6 +36,16 @@ Frame frame_of(const MeasuredPlane& plane, std::size_t index) {
   if (across.norm() > 0) frame.across = across.normalized().cast<float>();
   frame.primitive = static_cast<std::uint32_t>(index);
   return frame;
+}
+
+/// Whether most normals of a primitive's points say the side that it is turned to: files often have them by chance.
+bool normals_agree(const PlanePrimitive& primitive, const Cloud& cloud) {
+  constexpr double most = 0.9;
+  if (!cloud.has_normals()) return false;
+  const Eigen::Vector3f normal = primitive.plane.normal.cast<float>();
+  const auto agreeing = std::count_if(primitive.inliers.begin(), primitive.inliers.end(),
+                                      [&](std::uint32_t i) { return normal.dot(cloud.normals[i]) > 0; });
+  return static_cast<double>(agreeing) > most * static_cast<double>(primitive.inliers.size());
 }
 
 class Adoption {
@@ -67,7 +78,7 @@ class Adoption {
       const std::size_t sensor = cloud_.source.empty() ? 0 : cloud_.source[i];
       if (sensor < cloud_.sensors.size()) return f.normal.dot(cloud_.sensors[sensor]) + f.offset < 0;
     }
-    return cloud_.has_normals() && f.normal.dot(cloud_.normals[i]) < 0;
+    return f.normals_agree && f.normal.dot(cloud_.normals[i]) < 0;
   }
 
   const Cloud& cloud_;
@@ -84,7 +95,10 @@ Adopt::Out Adopt::run(const In& in, const Params& params, Context& context) {
   std::vector<Frame> frames;
   std::vector<std::uint32_t> home(cloud.size(), none);
   for (std::size_t i = 0; i < measured.size(); ++i) {
-    if (measured[i].moments.count > 0) frames.push_back(frame_of(measured[i], i));
+    if (measured[i].moments.count > 0) {
+      frames.push_back(frame_of(measured[i], i));
+      frames.back().normals_agree = normals_agree(in.planes->primitives[i], cloud);
+    }
     for (const auto k : in.planes->primitives[i].inliers) home[k] = static_cast<std::uint32_t>(i);
   }
   const Adoption adoption(cloud, frames, static_cast<float>(distance), static_cast<float>(params.reach));

@@ -9,8 +9,8 @@ namespace atrium::plane {
 /// A search for planes leaves out what is sparse or stands alone beyond a gap: the far end of a wall, the strip of
 /// floor behind a table. Each free point within `distance` of a plane, and within `reach` of the bounding rectangle of
 /// its primitive, joins the nearest such primitive, unless it was seen from behind (by the scanner's place, or by its
-/// normal, where the cloud knows one of them). Planes are fitted no more; residuals are those of all points. No random
-/// numbers.
+/// normal, where the cloud knows one of them and its primitive's normals agree). Planes are fitted no more; residuals
+/// are those of all points. No random numbers.
 struct Adopt {
   static constexpr std::string_view type = "plane.adopt";
   static constexpr std::string_view summary = "Gives points of no primitive to the planes that they lie on.";

@@ -20,6 +20,7 @@ struct GrowthLimits {
   double distance = 0.02;   ///< metres: RMS distance of a voxel's points from the plane that takes it
   double min_cosine = 0.9;  ///< between a planar voxel's normal and the plane's
   std::size_t min_points = 50;
+  double min_area = 0;  ///< of a connected patch, square metres
 };
 
 /// Grows regions from the flattest voxels over neighbouring voxels, with refits, and merges neighbouring regions that

@@ -53,6 +53,14 @@ double LocalSpacing::reach(const std::vector<std::uint32_t>& places) const {
   return std::max(least, reach_per_spacing * static_cast<double>(*upper));
 }
 
+double LocalSpacing::quantile(double share) const {
+  if (spacings_.empty()) return 0;
+  std::vector<float> values = spacings_;
+  const auto rank = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), rank, values.end());
+  return static_cast<double>(*rank);
+}
+
 LocalSpacing::LocalSpacing(const MortonOrder& order, const Context& context) {
   const std::size_t total = order.index.size();
   stride_ = std::max(window, (total + most_windows - 1) / most_windows);

@@ -16,6 +16,8 @@ class LocalSpacing {
   LocalSpacing(const MortonOrder& order, const Context& context);
   /// Metres; `place` is the point's place in the order.
   float at(std::uint32_t place) const { return spacings_[place / stride_]; }
+  /// The spacing below which this share of the cloud's neighbourhoods lies, metres; 0 for an empty cloud.
+  double quantile(double share) const;
   /// The distance at which points of a surface are to be taken as connected, given some of its points: 3 cm, or what
   /// three quarters of its surroundings need if that is more.
   double reach(const std::vector<std::uint32_t>& places) const;

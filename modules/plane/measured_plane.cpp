@@ -26,6 +26,18 @@ MeasuredPlane measure(const PlanePrimitive& primitive, const Cloud& cloud) {
   const auto corner = [&](double x, double y) -> Eigen::Vector3d { return base + u * x + v * y; };
   result.corners = {corner(box.min().x(), box.min().y()), corner(box.max().x(), box.min().y()),
                     corner(box.max().x(), box.max().y()), corner(box.min().x(), box.max().y())};
+  constexpr double least_square = 0.1;
+  const auto count = static_cast<double>(primitive.inliers.size());
+  result.square = std::max(least_square, 2 * std::sqrt(box.volume() / count));
+  result.columns = static_cast<int>(box.sizes().x() / result.square) + 1;
+  result.rows = static_cast<int>(box.sizes().y() / result.square) + 1;
+  result.squares.assign(static_cast<std::size_t>(result.columns) * static_cast<std::size_t>(result.rows), false);
+  for (const auto i : primitive.inliers) {
+    const Eigen::Vector3d p = cloud.points[i].cast<double>();
+    const Eigen::Vector2d at = (Eigen::Vector2d(u.dot(p), v.dot(p)) - box.min()) / result.square;
+    result.squares[static_cast<std::size_t>(at.y()) * static_cast<std::size_t>(result.columns) +
+                   static_cast<std::size_t>(at.x())] = true;
+  }
   return result;
 }
 
@@ -42,6 +54,33 @@ double MeasuredPlane::reach_to(const Plane& other) const {
   double reach = 0;
   for (const auto& corner : corners) reach = std::max(reach, std::abs(other.signed_distance(corner)));
   return reach;
+}
+
+double MeasuredPlane::share_over(const MeasuredPlane& other) const {
+  if (columns == 0 || other.columns == 0) return 0;
+  const auto along = [](const MeasuredPlane& m) -> Eigen::Vector3d {
+    return (m.corners[1] - m.corners[0]).normalized();
+  };
+  const auto across = [](const MeasuredPlane& m) -> Eigen::Vector3d {
+    return (m.corners[3] - m.corners[0]).normalized();
+  };
+  const Eigen::Vector3d u = along(*this), v = across(*this), other_u = along(other), other_v = across(other);
+  std::size_t all = 0, over = 0;
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      if (!squares[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)])
+        continue;
+      ++all;
+      const Eigen::Vector3d d = corners[0] + (x + 0.5) * square * u + (y + 0.5) * square * v - other.corners[0];
+      const auto column = static_cast<int>(std::floor(other_u.dot(d) / other.square));
+      const auto row = static_cast<int>(std::floor(other_v.dot(d) / other.square));
+      if (column < 0 || row < 0 || column >= other.columns || row >= other.rows) continue;
+      over += other.squares[static_cast<std::size_t>(row) * static_cast<std::size_t>(other.columns) +
+                            static_cast<std::size_t>(column)]
+                  ? 1
+                  : 0;
+    }
+  return all == 0 ? 0 : static_cast<double>(over) / static_cast<double>(all);
 }
 
 double MeasuredPlane::shared_area(const MeasuredPlane& other) const {

@@ -19,6 +19,13 @@ struct MeasuredPlane {
   /// Largest distance of the rectangle to a plane, metres.
   double reach_to(const Plane& other) const;
   double area() const { return (corners[1] - corners[0]).norm() * (corners[3] - corners[0]).norm(); }
+  /// Which squares of the rectangle hold points: `columns` along its first side. Their edge is 10 cm, or twice the
+  /// points' spacing where that is more.
+  double square = 0;
+  int columns = 0, rows = 0;
+  std::vector<bool> squares;
+  /// Share of this one's occupied squares that lie over occupied ones of the other, seen along the other's normal.
+  double share_over(const MeasuredPlane& other) const;
   /// Of the rectangles, seen along this one's normal, square metres; both boxed along this one's sides.
   double shared_area(const MeasuredPlane& other) const;
 };

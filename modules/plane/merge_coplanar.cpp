@@ -30,10 +30,12 @@ Plane fitted(const Moments& moments, const Eigen::Vector3d& side) {
 
 class Merging {
  public:
-  Merging(const std::vector<MeasuredPlane>& planes, double distance, double sheet_distance, double angle)
+  Merging(const std::vector<MeasuredPlane>& planes, double distance, double sheet_distance, double layer_distance,
+          double angle)
       : planes_(planes),
         distance_(distance),
         sheet_distance_(std::max(distance, sheet_distance)),
+        layer_distance_(std::max(sheet_distance_, layer_distance)),
         least_cosine_(std::cos(angle * radians)) {}
 
   std::vector<Group> run(const Context& context) {
@@ -80,8 +82,10 @@ class Merging {
   double joint_misfit(const Group& a, const Group& b, double limit) const {
     if (a.plane.normal.dot(b.plane.normal) < least_cosine_) return limit;
     const double offset = a.plane.signed_distance(b.moments.mean());
-    if (std::abs(offset) > 2 * sheet_distance_) return limit;
-    const double allowed = std::abs(offset) > distance_ / 2 && sheets(a, b) ? sheet_distance_ : distance_;
+    if (std::abs(offset) > layer_distance_) return limit;
+    const double allowed = std::abs(offset) <= distance_ / 2 || !sheets(a, b) ? distance_
+                           : layers(a, b)                                     ? layer_distance_
+                                                                              : sheet_distance_;
     const Plane plane = joint_plane(a, b).second;
     double misfit = 0;
     for (const auto* group : {&a, &b})
@@ -106,6 +110,19 @@ class Merging {
     return shared > most * area;
   }
 
+  /// Whether points of the smaller stand over points of the larger: the one before hides nothing of the other.
+  bool layers(const Group& a, const Group& b) const {
+    constexpr double many = 0.5;
+    double area = 0, over = 0;
+    for (const auto i : b.members) {
+      double best = 0;
+      for (const auto k : a.members) best = std::max(best, planes_[i].share_over(planes_[k]));
+      over += best * planes_[i].area();
+      area += planes_[i].area();
+    }
+    return over > many * area;
+  }
+
   static std::pair<Moments, Plane> joint_plane(const Group& a, const Group& b) {
     const double offset = std::abs(a.plane.signed_distance(b.moments.mean()));
     if (offset > 2 * a.residual && a.moments.count >= 2 * b.moments.count) return {a.moments, a.plane};
@@ -120,7 +137,7 @@ class Merging {
   }
 
   const std::vector<MeasuredPlane>& planes_;
-  double distance_, sheet_distance_, least_cosine_;
+  double distance_, sheet_distance_, layer_distance_, least_cosine_;
 };
 
 PlanePrimitive joined(const PlanePrimitives& planes, const std::vector<MeasuredPlane>& measured, const Group& group) {
@@ -144,7 +161,8 @@ MergeCoplanar::Out MergeCoplanar::run(const In& in, const Params& params, Contex
   constexpr double least_distance = 0.005;
   const std::vector<MeasuredPlane> measured = measure_planes(*in.planes, context);
   const double distance = params.distance > 0 ? params.distance : std::max(least_distance, 3 * mean_residual(measured));
-  const std::vector<Group> groups = Merging(measured, distance, params.sheet_distance, params.angle).run(context);
+  const std::vector<Group> groups =
+      Merging(measured, distance, params.sheet_distance, params.layer_distance, params.angle).run(context);
   Out out;
   out.planes.cloud = in.planes->cloud;
   out.planes.primitives.resize(groups.size());

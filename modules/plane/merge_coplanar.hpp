@@ -31,6 +31,7 @@ struct MergeCoplanar {
   struct Params {
     double distance = 0;
     double sheet_distance = 0.08;
+    double layer_distance = 0.2;
     double angle = 10;
   };
   static constexpr auto inputs = std::tuple{port(&In::planes, "planes", "Primitives; normals to the side seen.")};
@@ -42,6 +43,10 @@ struct MergeCoplanar {
             "the noise (the mean residual of the primitives), at least 5 mm."),
       param(&Params::sheet_distance, "sheet_distance", metres, within(0, 10),
             "The same for planes one before the other: less than the thinnest wall."),
+      param(
+          &Params::layer_distance, "layer_distance", metres, within(0, 10),
+          "The same for planes whose points stand one before the other: layers of one surface that drift has parted. A "
+          "cupboard hides the wall behind it, so it is none."),
       param(&Params::angle, "angle", degrees, within(0, 45), "Largest angle between the normals of one plane.")};
   static Out run(const In& in, const Params& params, Context& context);
 };

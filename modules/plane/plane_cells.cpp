@@ -58,7 +58,8 @@ class PlaneCells::Forest {
 };
 
 // All points of a cell are within reach of each other.
-PlaneCells::PlaneCells(const Eigen::Vector3d& normal, double reach) : frame_(normal, reach / std::sqrt(2.0)) {}
+PlaneCells::PlaneCells(const Eigen::Vector3d& normal, double reach)
+    : frame_(normal, reach / std::sqrt(2.0)), cell_area_(reach * reach / 2) {}
 
 std::uint32_t PlaneCells::add(const Eigen::Vector2f& at) {
   const CellFrame::Index i = CellFrame::index(at);

@@ -24,6 +24,7 @@ class PlaneCells {
   /// In the plane, in cells.
   Eigen::Vector2f position(const Eigen::Vector3f& p) const { return frame_.position(p); }
   std::size_t size() const { return indices_.size(); }
+  double cell_area() const { return cell_area_; }  ///< square metres
   CellFrame::Index index(std::uint32_t cell) const { return indices_[cell]; }
 
   /// For each cell the number of its component: that of the component's first cell.
@@ -54,6 +55,7 @@ class PlaneCells {
   void join_far(Forest& forest, const Context& context) const;
 
   CellFrame frame_;
+  double cell_area_;
   TileTable tiles_;
   std::uint64_t last_key_ = 0;  ///< the last point's tile: the next one is mostly in it, too
   std::uint32_t last_tile_ = absent;

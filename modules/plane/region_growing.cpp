@@ -1,24 +1,28 @@
 #include "modules/plane/region_growing.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <string>
 
 #include "modules/plane/assignment.hpp"
-#include "modules/plane/free_side.hpp"
 #include "modules/plane/grow_regions.hpp"
 #include "modules/plane/local_spacing.hpp"
 #include "modules/plane/region_patches.hpp"
+#include "modules/plane/seen_side.hpp"
 
 namespace atrium::plane {
 namespace {
 
 constexpr std::uint32_t leaf_size = 32;
 constexpr std::uint32_t least_level = 2;  // of a voxel above the order's cells
-constexpr double least_distance = 0.002;
+constexpr std::uint32_t coarsest_level = 8;
 constexpr double distance_per_residual = 2.5;
+constexpr double voxel_per_noise = 4;  // a voxel's points must show which way its plane lies
 
 struct Settings {
   std::uint32_t level = least_level;
@@ -27,18 +31,17 @@ struct Settings {
   GrowthLimits limits;
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double quantile(std::vector<double> values, double share) {
+  const auto rank = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), rank, values.end());
+  return *rank;
 }
 
 /// The finest level, from voxels of the least size on, at which half of the points share their voxel with enough others
 /// for a plane.
 std::uint32_t automatic_level(const MortonOrder& order) {
-  constexpr std::uint32_t coarsest = 8;
   constexpr std::size_t enough = 5;
-  for (std::uint32_t level = least_level; level < coarsest; ++level) {
+  for (std::uint32_t level = least_level; level < coarsest_level; ++level) {
     std::size_t together = 0;
     std::size_t begin = 0;
     for (std::size_t i = 1; i <= order.codes.size(); ++i) {
@@ -48,23 +51,33 @@ std::uint32_t automatic_level(const MortonOrder& order) {
     }
     if (2 * together >= order.codes.size()) return level;
   }
-  return coarsest;
+  return coarsest_level;
 }
 
-/// 2.5 times the noise, as the neighbourhoods of flat voxels show it: a voxel alone can cut the noise in half.
-double automatic_distance(const VoxelGrid& grid) {
+/// The noise, as the neighbourhoods of flat voxels show it: a voxel alone can cut it in half. Their median residual
+/// where voxels are fine; the lower quartile where they are coarse, since many such neighbourhoods hold both faces of a
+/// wall.
+double noise_of(const VoxelGrid& grid, bool fine) {
   constexpr std::size_t samples = 1000;
   std::vector<std::uint32_t> flat;
   for (std::uint32_t i = 0; i < grid.voxels().size(); ++i)
     if (grid.voxels()[i].planar) flat.push_back(i);
-  if (flat.empty()) return least_distance;
+  if (flat.empty()) return 0;
   std::vector<double> residuals;
   for (std::size_t k = 0; k < flat.size(); k += std::max<std::size_t>(1, flat.size() / samples)) {
     Moments moments = grid.voxels()[flat[k]].moments;
     grid.visit_neighbours(flat[k], [&](std::uint32_t other) { moments += grid.voxels()[other].moments; });
     residuals.push_back(std::sqrt(fit_plane(moments).variances[0]));
   }
-  return std::max(least_distance, distance_per_residual * median(residuals));
+  return quantile(std::move(residuals), fine ? 0.5 : 0.25);
+}
+
+/// Half of the points that a surface of this area holds where the scan is sparse.
+std::size_t points_of(double area, const LocalSpacing& spacing) {
+  constexpr double sparse = 0.75;
+  constexpr std::size_t least = 50;
+  const double step = std::max(0.001, spacing.quantile(sparse));
+  return std::max(least, static_cast<std::size_t>(0.5 * area / (step * step)));
 }
 
 /// What is known of an order's voxels from one pass to the next.
@@ -74,7 +87,7 @@ struct KnownVoxels {
 };
 
 /// The patches among the points that have no owner yet.
-std::vector<Patch> find_patches(const Cloud& cloud, const MortonOrder& order, const LocalSpacing& spacing,
+std::vector<Patch> find_patches(const MortonOrder& order, const LocalSpacing& spacing,
                                 const std::vector<std::int32_t>& owner, KnownVoxels& known, const Settings& settings,
                                 double cluster_distance, const Context& context) {
   if (known.grid)
@@ -83,36 +96,31 @@ std::vector<Patch> find_patches(const Cloud& cloud, const MortonOrder& order, co
     known.grid.emplace(order, settings.cell, settings.level, owner, settings.planarity, context);
   const VoxelGrid& grid = *known.grid;
   const std::vector<Region> regions = grow_regions(grid, settings.limits, known.hopeless, context);
-  std::vector<std::uint32_t> surface(grid.voxels().size(), VoxelGrid::none);
-  for (std::uint32_t i = 0; i < regions.size(); ++i)
-    for (const std::uint32_t v : regions[i].voxels) surface[v] = i;
-  const FreeSide free_side(cloud, order, grid, std::move(surface));
   const RegionPatches splitter{order, grid, owner, spacing, cluster_distance, settings.limits};
   std::vector<std::vector<Patch>> found(regions.size());
   context.parallel_chunks(regions.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-    found[i] = splitter.patches(regions[i], static_cast<std::uint32_t>(i), cloud.has_normals() ? nullptr : &free_side,
-                                context);
+    found[i] = splitter.patches(regions[i], context);
   });
   std::vector<Patch> patches;
   for (auto& part : found) std::move(part.begin(), part.end(), std::back_inserter(patches));
   return patches;
 }
 
-/// The voxels moved by half an edge: the faces of a wall thicker than half an edge that share voxels do so no more.
+/// The voxels moved by a share of their edge: the faces of a wall that share voxels at one place do not at another.
 class Shifted {
  public:
-  Shifted(const Cloud& cloud, const MortonOrder& order, const Settings& settings, const Context& context)
-      : order_(cloud, settings.cell, context, MortonOrder::Normals::no, settings.cell * (1U << settings.level) / 2),
+  Shifted(const Cloud& cloud, const MortonOrder& order, const Settings& settings, double share, const Context& context)
+      : order_(cloud, settings.cell, context, MortonOrder::Normals::no, settings.cell * (1U << settings.level) * share),
         spacing_(order_, context) {
     place_.resize(cloud.size());
     for (std::uint32_t i = 0; i < order.index.size(); ++i) place_[order.index[i]] = i;
   }
 
-  std::vector<Patch> find(const Cloud& cloud, const std::vector<std::int32_t>& owner, const Settings& settings,
-                          double cluster_distance, const Context& context) {
+  std::vector<Patch> find(const std::vector<std::int32_t>& owner, const Settings& settings, double cluster_distance,
+                          const Context& context) {
     std::vector<std::int32_t> moved(owner.size());
     for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = owner[place_[order_.index[i]]];
-    return find_patches(cloud, order_, spacing_, moved, known_, settings, cluster_distance, context);
+    return find_patches(order_, spacing_, moved, known_, settings, cluster_distance, context);
   }
 
  private:
@@ -140,13 +148,20 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
   limits.distance = params.distance;
   if (params.distance == 0) {
     settings.planarity.max_residual = settings.cell * (1U << least_level);
-    limits.distance =
-        automatic_distance(VoxelGrid(order, settings.cell, settings.level, owner, settings.planarity, context));
+    const double noise = noise_of(VoxelGrid(order, settings.cell, settings.level, owner, settings.planarity, context),
+                                  settings.level == least_level);
+    context.info(fmt::format("noise {:.1f} mm, voxels of {:.0f} mm", 1000 * noise,
+                             1000 * settings.cell * (1U << settings.level)));
+    limits.distance = std::max({distance_per_residual * noise, params.min_distance, 1e-6});
+    if (params.voxel_size == 0)
+      while (settings.level < coarsest_level && settings.cell * (1U << settings.level) < voxel_per_noise * noise)
+        ++settings.level;
   }
   settings.planarity.max_residual = limits.distance;
   limits.min_cosine = std::cos(params.angle * std::numbers::pi / 180);
+  limits.min_area = params.min_area;
   limits.min_points = params.min_points > 0 ? static_cast<std::size_t>(std::max(3, params.min_points))
-                                            : std::max<std::size_t>(50, cloud.size() / 2000);
+                                            : points_of(params.min_area, spacing);
 
   const PointOctree octree(order.columns, order.codes, leaf_size, context);
   constexpr float any_normal = -2;
@@ -154,14 +169,18 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
   KnownVoxels known_voxels;
   std::vector<Patch> patches;
   const bool alternate = settings.level > least_level;  // finer voxels are thinner than walls
-  std::optional<Shifted> shifted;
-  for (std::int64_t pass = 0; pass < params.passes; ++pass) {
-    if (alternate && pass == 1) shifted.emplace(cloud, order, settings, context);
-    std::vector<Patch> found =
-        shifted && pass % 2 == 1
-            ? shifted->find(cloud, owner, settings, params.cluster_distance, context)
-            : find_patches(cloud, order, spacing, owner, known_voxels, settings, params.cluster_distance, context);
-    context.progress((static_cast<double>(pass) + 1) / (static_cast<double>(params.passes) + 1));
+  // By half an edge first, then by quarters: the faces of a wall as thin as that stand in different voxels once.
+  constexpr std::array<double, 5> shifts{0, 0.5, 0, 0.25, 0.75};
+  std::array<std::optional<Shifted>, shifts.size()> shifted;
+  const std::int64_t passes =
+      alternate ? std::max<std::int64_t>(params.passes, static_cast<std::int64_t>(shifts.size())) : params.passes;
+  for (std::int64_t pass = 0; pass < passes; ++pass) {
+    const std::size_t turn = alternate ? static_cast<std::size_t>(pass) % shifts.size() : 0;
+    if (shifts[turn] > 0 && !shifted[turn]) shifted[turn].emplace(cloud, order, settings, shifts[turn], context);
+    std::vector<Patch> found = shifts[turn] > 0 ? shifted[turn]->find(owner, settings, params.cluster_distance, context)
+                                                : find_patches(order, spacing, owner, known_voxels, settings,
+                                                               params.cluster_distance, context);
+    context.progress((static_cast<double>(pass) + 1) / (static_cast<double>(passes) + 1));
     if (found.empty() && !alternate) break;
     const std::size_t known = patches.size();
     std::move(found.begin(), found.end(), std::back_inserter(patches));
@@ -170,6 +189,13 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
   PlanePrimitives planes = fit_primitives(in.cloud, order, owner, patches, limits.min_points, context);
   if (params.max_planes > 0 && planes.primitives.size() > static_cast<std::size_t>(params.max_planes))
     planes.primitives.resize(static_cast<std::size_t>(params.max_planes));
+  const SeenSides sides = turn_to_seen_sides(planes, context);
+  context.info(fmt::format("sides told by positions for {} planes, by free space for {}, by normals for {}",
+                           sides.by_positions, sides.by_free_space, sides.by_normals));
+  if (2 * sides.turned_against_normals > planes.primitives.size())
+    context.warn(fmt::format(
+        "the normals of {} of {} planes look to the side from which they were not seen: only their axes are used",
+        sides.turned_against_normals, planes.primitives.size()));
   return {std::move(planes)};
 }
 

@@ -27,9 +27,7 @@ RegionPatches::Support RegionPatches::support(const Region& region) const {
   return support;
 }
 
-std::vector<Patch> RegionPatches::patches(const Region& region, std::uint32_t number, const FreeSide* side,
-                                          const Context& context) const {
-  constexpr std::size_t sample_size = 64;
+std::vector<Patch> RegionPatches::patches(const Region& region, const Context& context) const {
   const auto [places, share] = support(region);
   // Spread evenly through space, a third would lie in the slab, at an RMS distance of 0.58 of its half width.
   const bool diffuse = share < 0.5;
@@ -40,11 +38,14 @@ std::vector<Patch> RegionPatches::patches(const Region& region, std::uint32_t nu
   for (const std::uint32_t i : places) cell_of.push_back(cells.add(order.columns.point(i)));
   const std::vector<std::uint32_t> component = cells.components(context);
 
+  std::vector<std::size_t> size(component.size(), 0);  // in cells
+  for (const std::uint32_t c : component) ++size[c];
   std::vector<std::vector<std::uint32_t>> members(component.size());
   for (std::size_t k = 0; k < places.size(); ++k) members[component[cell_of[k]]].push_back(places[k]);
   std::vector<Patch> result;
   for (std::uint32_t c = 0; c < members.size(); ++c) {
     if (members[c].size() < limits.min_points) continue;
+    if (static_cast<double>(size[c]) * cells.cell_area() < limits.min_area) continue;
     Moments moments;
     for (const std::uint32_t i : members[c]) moments.add(order.columns.point(i).cast<double>());
     const PlaneFit fit = fit_plane(moments);
@@ -52,14 +53,7 @@ std::vector<Patch> RegionPatches::patches(const Region& region, std::uint32_t nu
     if (diffuse && std::sqrt(fit.variances[0]) > 0.5 * limits.distance) continue;
     std::vector<bool> chosen(component.size());
     for (std::size_t k = 0; k < chosen.size(); ++k) chosen[k] = component[k] == c;
-    Patch patch{fit.plane, cells.dilated(chosen)};
-    if (side != nullptr) {
-      std::vector<std::uint32_t> sample;
-      const std::size_t step = std::max<std::size_t>(1, members[c].size() / sample_size);
-      for (std::size_t k = 0; k < members[c].size(); k += step) sample.push_back(members[c][k]);
-      side->turn(patch.plane, sample, number);
-    }
-    result.push_back(std::move(patch));
+    result.push_back({fit.plane, cells.dilated(chosen)});
   }
   return result;
 }

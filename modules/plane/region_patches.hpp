@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "modules/plane/assignment.hpp"
-#include "modules/plane/free_side.hpp"
 #include "modules/plane/grow_regions.hpp"
 #include "modules/plane/local_spacing.hpp"
 
@@ -20,9 +19,8 @@ struct RegionPatches {
   double cluster_distance;  ///< 0: from the spacing
   GrowthLimits limits;
 
-  /// `number`: the region's. Planes are turned by `side`, left as they are if it is null.
-  std::vector<Patch> patches(const Region& region, std::uint32_t number, const FreeSide* side,
-                             const Context& context) const;
+  /// Signs of the planes are arbitrary.
+  std::vector<Patch> patches(const Region& region, const Context& context) const;
 
  private:
   struct Support {

@@ -35,9 +35,9 @@ constexpr double unknown_top = -1e9;  ///< of an edge without walls
 /// A side that two cells share, or one cell and the outside of the complex.
 struct CellEdge {
   static constexpr auto members() {
-    return std::tuple{&CellEdge::from,       &CellEdge::to,       &CellEdge::left,
-                      &CellEdge::right,      &CellEdge::line,     &CellEdge::wall_left,
-                      &CellEdge::wall_right, &CellEdge::top_left, &CellEdge::top_right};
+    return std::tuple{&CellEdge::from,       &CellEdge::to,        &CellEdge::left,       &CellEdge::right,
+                      &CellEdge::line,       &CellEdge::wall_left, &CellEdge::wall_right, &CellEdge::face_left,
+                      &CellEdge::face_right, &CellEdge::top_left,  &CellEdge::top_right};
   }
   std::uint32_t from = 0, to = 0;  ///< vertices
   std::int32_t left = -1;          ///< the cell left of from → to
@@ -45,7 +45,9 @@ struct CellEdge {
   std::int32_t line = -1;
   double wall_left = 0;            ///< share of its length on which a wall that looks to the left reaches the ceiling
   double wall_right = 0;           ///< the same for walls that look to the right
-  double top_left = unknown_top;   ///< where the walls end that look to the left, metres; the median along the edge
+  double face_left = 0;            ///< share of its length on which any tall face was seen that looks to the left
+  double face_right = 0;           ///< the same for faces that look to the right
+  double top_left = unknown_top;   ///< where most of the walls end that look to the left, metres
   double top_right = unknown_top;  ///< the same for walls that look to the right
 };
 
@@ -61,8 +63,9 @@ struct LayoutCell {
   static constexpr auto members() {
     return std::tuple{&LayoutCell::corners,       &LayoutCell::edges,     &LayoutCell::area,
                       &LayoutCell::floors,        &LayoutCell::ceilings,  &LayoutCell::floor_cover,
-                      &LayoutCell::ceiling_cover, &LayoutCell::any_cover, &LayoutCell::measured,
-                      &LayoutCell::room,          &LayoutCell::floor,     &LayoutCell::ceiling};
+                      &LayoutCell::ceiling_cover, &LayoutCell::any_cover, &LayoutCell::enclosed,
+                      &LayoutCell::measured,      &LayoutCell::room,      &LayoutCell::floor,
+                      &LayoutCell::ceiling};
   }
   std::vector<std::uint32_t> corners;  ///< counter-clockwise; some may stand on a straight side
   std::vector<std::uint32_t> edges;    ///< edges[i] joins corners[i] and the next
@@ -71,7 +74,8 @@ struct LayoutCell {
   double floor_cover = 0;    ///< share of its area over which any floor was seen
   double ceiling_cover = 0;  ///< share of its area under which any ceiling was seen
   double any_cover = 0;      ///< share of its area with points between floor and ceiling
-  bool measured = false;     ///< false: the noise of the walls around it fills it, so that nothing is known of it
+  double enclosed = 0;    ///< share of directions, level and from its middle, in which the first wall looks towards it
+  bool measured = false;  ///< false: the noise of the walls around it fills it, so that nothing is known of it
   // Written by the nodes that decide:
   std::int32_t room = -1;  ///< −1: outside, or in a wall
   std::int32_t floor = -1, ceiling = -1;

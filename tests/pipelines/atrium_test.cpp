@@ -31,8 +31,8 @@ nodes:
 )";
 
 void simulate(const std::string& scene, std::vector<std::string> settings, const fs::path& out) {
-  settings.insert(settings.begin(), {"scene.type=synth." + scene, "points=150000", "sensors=true", "outside=false",
-                                     "windows=open"});
+  settings.insert(settings.begin(),
+                  {"scene.type=synth." + scene, "points=150000", "sensors=true", "outside=false", "windows=open"});
   const auto result = run_pipeline_file("simulate.yaml", settings, out);
   ASSERT_EQ(result.exit_code, 0) << result.err;
 }

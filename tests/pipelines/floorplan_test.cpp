@@ -43,7 +43,7 @@ void expect_inner_walls(const json& plan, double least_length) {
 }
 
 fs::path run_paper(const TemporaryFolder& scratch, std::vector<std::string> simulation) {
-  simulation.insert(simulation.end(), {"points=300000", "noise=8 mm"});
+  simulation.insert(simulation.end(), {"points=300000", "noise=8 mm", "sensors=true", "outside=false", "windows=open"});
   const auto simulated = run_pipeline_file("simulate.yaml", simulation, scratch / "scan");
   EXPECT_EQ(simulated.exit_code, 0) << simulated.err;
   const auto paper = run_pipeline_file(

@@ -383,5 +383,50 @@ TEST_F(GlbFiles, KhronosValidatorFindsNoFault) {
   EXPECT_EQ(reports, 6);
 }
 
+/// The lowest and the highest corner of a file, in glTF's frame.
+std::pair<Vector3d, Vector3d> bounds(const tinygltf::Model& model) {
+  Vector3d low = Vector3d::Constant(1e9), high = -low;
+  for (const auto& mesh : model.meshes)
+    for (const auto& primitive : mesh.primitives) {
+      const auto& a = model.accessors.at(primitive.attributes.at("POSITION"));
+      low = low.cwiseMin(Vector3d(a.minValues[0], a.minValues[1], a.minValues[2]));
+      high = high.cwiseMax(Vector3d(a.maxValues[0], a.maxValues[1], a.maxValues[2]));
+    }
+  return {low, high};
+}
+
+TEST_F(GlbFiles, StandsUprightWhateverIsUpInTheFrameOfTheMesh) {
+  const Mesh upright = two_storeys();  // 5 × 3 × 5.5 m
+  for (const Vector3d& up : {Vector3d(0, 0, 1), Vector3d(0, 1, 0), Vector3d(0, -1, 0), Vector3d(1, 0, 0),
+                             Vector3d(-1, 0, 0), Vector3d(0.3, 0.8, -0.5).normalized()}) {
+    Transform to_upright;
+    to_upright.rotation = Eigen::Quaterniond::FromTwoVectors(up, Vector3d::UnitZ()).toRotationMatrix();
+    Mesh mesh = upright;
+    for (auto& v : mesh.vertices) v = to_upright.rotation.transpose() * v;
+    WriteMesh::In in{input(mesh), {}};
+    in.transform = input(to_upright);
+    WriteMesh::run(in, {{"m.glb"}, true}, context);
+    const auto [low, high] = bounds(read("m.glb"));
+    EXPECT_NEAR(low.y(), 0, 1e-6) << up.transpose();
+    EXPECT_NEAR(high.y(), 5.5, 1e-6) << up.transpose();
+  }
+}
+
+TEST_F(GlbFiles, YUpStaysAsItIsAndASmallTiltStays) {
+  Mesh mesh = two_storeys();
+  WriteMesh::In in{input(mesh), {}};
+  Transform y_up;  // y of the mesh becomes z
+  y_up.rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  in.transform = input(y_up);
+  WriteMesh::run(in, {{"y.glb"}, true}, context);
+  const auto [low, high] = bounds(read("y.glb"));
+  EXPECT_NEAR((low - Vector3d(0, 0, 0)).norm() + (high - Vector3d(5, 3, 5.5)).norm(), 0, 1e-6);
+  Transform tilted;
+  tilted.rotation = Eigen::AngleAxisd(0.05, Vector3d::UnitX()).toRotationMatrix();  // 2.9 degrees
+  in.transform = input(tilted);
+  WriteMesh::run(in, {{"t.glb"}, true}, context);
+  EXPECT_NEAR((bounds(read("t.glb")).second - Vector3d(5, 5.5, 0)).norm(), 0, 1e-6);
+}
+
 }  // namespace
 }  // namespace atrium::io

@@ -106,10 +106,12 @@ Cloud sheet(double spacing) {
   return cloud;
 }
 
+const Eigen::AlignedBox3d everywhere(Eigen::Vector3d::Constant(-1e6), Eigen::Vector3d::Constant(1e6));
+
 TEST(FreeSpace, SurfacesAreClosedHoweverSparse) {
   for (const double spacing : {0.02, 0.05, 0.1, 0.15}) {
     const Cloud cloud = sheet(spacing);
-    const FreeSpace space(cloud, 0.05);
+    const FreeSpace space(cloud, 0.05, everywhere);
     for (double y = 0.3; y < 1.7; y += 0.037) {
       EXPECT_FALSE(space.is_free({-0.5, y, 1}, {0.5, y + 0.1, 1.2})) << spacing << " at " << y;
       EXPECT_TRUE(space.is_free({0.5, y, 1}, {2.5, y + 0.1, 1.2})) << spacing << " at " << y;
@@ -120,7 +122,7 @@ TEST(FreeSpace, SurfacesAreClosedHoweverSparse) {
 TEST(FreeSpace, PointsThatAreAloneStopNothing) {
   Cloud cloud = sheet(0.02);
   cloud.points.emplace_back(1.5F, 1.0F, 1.0F);
-  const FreeSpace space(cloud, 0.05);
+  const FreeSpace space(cloud, 0.05, everywhere);
   EXPECT_FALSE(space.is_occupied({1.5, 1, 1}));
   EXPECT_TRUE(space.is_free({0.5, 1, 1}, {2.5, 1, 1}));
 }

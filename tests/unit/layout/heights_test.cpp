@@ -19,7 +19,7 @@ StoreyCells settled(const StoreyCells& storey, const Heights::Params& params = {
   return Heights::run({input(cells)}, params, context).cells.storeys[0];
 }
 
-/// What a choice of floors costs: the area that they do not cover, more where another one was seen, and steps.
+/// What a choice of floors costs: the area over which another one was seen, less where that is near, and steps.
 class FloorEnergy {
  public:
   FloorEnergy(const StoreyCells& storey, const Heights::Params& params) : storey_(storey), params_(params) {}
@@ -27,8 +27,12 @@ class FloorEnergy {
   double data(std::size_t cell, std::size_t floor) const {
     const LayoutCell& c = storey_.cells[cell];
     double sum = 0;
-    for (const auto& cover : c.floors)
-      if (static_cast<std::size_t>(cover.surface) != floor) sum += c.area * cover.share;
+    const Eigen::Vector2d p = storey_.vertices[c.corners[0]];  // level floors only
+    for (const auto& cover : c.floors) {
+      const auto& seen = storey_.floors[static_cast<std::size_t>(cover.surface)];
+      const double off = std::abs(seen.height_at(p) - storey_.floors[floor].height_at(p));
+      if (static_cast<std::size_t>(cover.surface) != floor) sum += c.area * cover.share * std::min(1.0, off / 0.5);
+    }
     return sum + (storey_.floors[floor].primitive < 0 ? 0.01 * c.area : 0);
   }
   double operator()(const std::vector<std::size_t>& floors) const {

@@ -60,10 +60,17 @@ TEST(MergeCoplanar, AStepStaysUnlessItLiesOverTheOther) {
   const auto out = merged(sheets.unsorted());
   ASSERT_EQ(out.primitives.size(), 1U);
   EXPECT_NEAR(out.primitives[0].plane.offset, 0, 1e-6);
-  Rooms apart;
-  apart.floor(0, 0, 3, 3).floor(1, 1, 2, 2, 0.1);
+  EXPECT_EQ(merged(sheets.unsorted(), {.sheet_distance = 0.01, .layer_distance = 0.01}).primitives.size(), 2U);
+  // Points before points: layers of one surface up to 20 cm.
+  Rooms layers, apart;
+  layers.floor(0, 0, 3, 3).floor(1, 1, 2, 2, 0.15);
+  EXPECT_EQ(merged(layers.unsorted()).primitives.size(), 1U);
+  apart.floor(0, 0, 3, 3).floor(1, 1, 2, 2, 0.25);
   EXPECT_EQ(merged(apart.unsorted()).primitives.size(), 2U);
-  EXPECT_EQ(merged(sheets.unsorted(), {.sheet_distance = 0.01}).primitives.size(), 2U);
+  // A cupboard's front hides what is behind it: a step.
+  Rooms cupboard;
+  cupboard.floor(0, 0, 3, 1).floor(0, 2, 3, 3).floor(0, 1, 3, 2, 0.15);
+  EXPECT_EQ(merged(cupboard.unsorted()).primitives.size(), 2U);
 }
 
 TEST(MergeCoplanar, SmallPiecesMayBeTurnedByMoreThanLargeOnes) {

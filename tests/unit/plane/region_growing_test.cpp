@@ -48,7 +48,23 @@ TEST(PlaneRegionGrowing, TurnsPlanesToTheSensorOrTheNormals) {
   cloud.sensors = {{1, 1, -5}};
   EXPECT_LT(grow(cloud).primitives.at(0).plane.normal.z(), -0.99);
   cloud.normals.assign(cloud.size(), {0, 0, 1});
-  EXPECT_GT(grow(cloud).primitives.at(0).plane.normal.z(), 0.99);
+  EXPECT_LT(grow(cloud).primitives.at(0).plane.normal.z(), -0.99);  // the position tells more
+  cloud.sensors.clear();
+  EXPECT_GT(grow(cloud).primitives.at(0).plane.normal.z(), 0.99);  // nothing else does
+}
+
+// The longest way through the scene is what tells a room from a wall's inside and from the outside, however wide it is;
+// normals of random sign, and ones that all look the wrong way, do not matter.
+TEST(PlaneRegionGrowing, TurnsPlanesIntoTheirRoomsWhateverTheNormals) {
+  auto faces = box_faces({0, 0, 0}, {12, 11, 3}, true);
+  const auto more = box_faces({12.12, 0, 0}, {16, 11, 3}, true);
+  faces.insert(faces.end(), more.begin(), more.end());
+  Cloud cloud = sample(faces, {.points = 200000});
+  for (const int pattern : {0, 1, 2}) {
+    for (std::size_t i = 0; i < cloud.normals.size(); ++i)
+      if (pattern == 1 || (pattern == 2 && i % 2 == 0)) cloud.normals[i] = -cloud.normals[i];
+    for (const auto& match : match_faces(faces, grow(cloud))) EXPECT_LT(match.angle, 1) << pattern;
+  }
 }
 
 TEST(PlaneRegionGrowing, DerivesItsDistanceFromTheNoise) {

@@ -18,6 +18,10 @@ synth::Scan::Out simulated_scan(Context& context) {
   params.pattern = synth::Scan::Pattern::uniform_area;
   params.positions = 6;
   params.sensors = true;
+  params.outside = false;
+  params.windows = synth::Scan::Windows::open;
+  params.mixed_pixels = 0;
+  params.angular_noise = 0;
   params.yaw = 23;
   params.tilt = 2.5;
   return synth::Scan::run({input(synth::Flat::run({}, {}, context).scene)}, params, context);

@@ -81,7 +81,9 @@ TYPED_TEST(SynthScene, PointsWithoutNoiseLieOnTheirFacesOrOnObjects) {
   Context context;
   Scan::Params params;
   params.points = 20000;
-  params.noise = params.outliers = 0;
+  params.noise = params.outliers = params.angular_noise = params.mixed_pixels = 0;
+  params.outside = false;
+  params.windows = Scan::Windows::open;
   const auto out = Scan::run({input(scene)}, params, context);
   std::size_t structure = 0, objects = 0;
   for (std::size_t i = 0; i < out.cloud.size(); ++i) {

@@ -1,0 +1,29 @@
+#pragma once
+#include <memory>
+
+#include "graph/api/context.hpp"
+#include "modules/types/plane_primitives.hpp"
+
+namespace atrium::plane {
+
+/// How the sides of planes were told, for the log.
+struct SeenSides {
+  std::size_t by_positions = 0, by_free_space = 0, by_normals = 0;
+  std::size_t turned_against_normals = 0;  ///< the cloud's normals look the other way
+};
+
+/// Turns each plane to the side from which its surface was seen. Asked in this order:
+///
+/// 1. The scanner's positions, where the cloud has them. A position that saw all points (no `source`) counts for those
+///    points only to which the way is free: it stood in one room, the other rooms' walls say nothing by it.
+/// 2. Free space over the whole scene: rays leave places of the surface to both sides (straight, at 45° and at 70°)
+///    until they meet points off the plane. A ray's length counts, at most 3 m; one that leaves the scene counts 0,
+///    since the outside of a building is not seen. So a room is before a wall even where it is wide, and the 12 cm to
+///    its other face are not.
+/// 3. The cloud's normals (their axes never, only their signs), where the free space on both sides is alike.
+///
+/// Cost: at most 64 places × 26 rays of 20 m for each plane; a grid over the points. Deterministic. The planes' sizes,
+/// inliers and order do not change.
+SeenSides turn_to_seen_sides(PlanePrimitives& planes, const Context& context);
+
+}  // namespace atrium::plane

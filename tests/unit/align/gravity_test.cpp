@@ -1,0 +1,165 @@
+#include "modules/align/gravity.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/rooms.hpp"
+#include "tests/support/warnings.hpp"
+
+namespace atrium::align {
+namespace {
+
+using Eigen::AngleAxisd;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double radians = std::numbers::pi / 180;
+
+Transform turn(const Vector3d& axis, double degrees) {
+  return {AngleAxisd(degrees * radians, axis.normalized()).toRotationMatrix(), {3, -2, 7}};
+}
+/// A scene with z up in a frame in which `up` is.
+Transform frame_with(const Vector3d& up) {
+  Transform t;
+  t.rotation = up.z() < -0.99 ? AngleAxisd(std::numbers::pi, Vector3d::UnitX()).toRotationMatrix()
+                              : Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up).toRotationMatrix();
+  return t;
+}
+
+/// A closed box that stands on the floor, 4 cm above it as scans leave it.
+void box(test::Rooms& rooms, double x, double y, double wide, double deep, double height) {
+  rooms.floor(x, y, x + wide, y + deep, height);
+  rooms.wall(x + wide, y, x, y, 0.04, height).wall(x + wide, y + deep, x + wide, y, 0.04, height);
+  rooms.wall(x, y + deep, x + wide, y + deep, 0.04, height).wall(x, y, x, y + deep, 0.04, height);
+}
+
+/// A cube, whose sides say nothing: 3 × 3 × 3 m, with a table, two seats and a door of 0.9 × 2.05 m.
+test::Rooms furnished_cube() {
+  test::Rooms rooms;
+  rooms.floor(0, 0, 3, 3).ceiling(0, 0, 3, 3, 3).walls({{0, 0}, {3, 0}, {3, 3}}, 0, 0, 3);
+  rooms.wall(0, 3, 0, 0, 0, 3);
+  rooms.add({0, 3, 0}, {3, 0, 0}, {0, 0, 3}, {0, -1, 0},
+            [](const Vector3d& p) { return !(p.x() > 1 && p.x() < 1.9 && p.z() < 2.05); });
+  box(rooms, 0.8, 0.9, 1.4, 0.8, 0.74);
+  box(rooms, 0.9, 0.3, 0.42, 0.42, 0.45);
+  box(rooms, 1.6, 0.3, 0.42, 0.42, 0.45);
+  return rooms;
+}
+
+/// As region growing gives them: on which side a plane was seen is not known.
+PlanePrimitives without_sides(PlanePrimitives planes) {
+  for (std::size_t i = 0; i < planes.primitives.size(); i += 2) {
+    Plane& plane = planes.primitives[i].plane;
+    plane = {-plane.normal, -plane.offset};
+  }
+  return planes;
+}
+
+double degrees_off(const Gravity::Out& out, const Transform& frame) {
+  const Vector3d up = out.transform.rotation * frame.rotation * Vector3d::UnitZ();
+  return std::atan2(up.cross(Vector3d::UnitZ()).norm(), up.z()) / radians;
+}
+
+TEST(AlignGravity, FindsTheFloorOfAFurnishedCubeInAnyFrame) {
+  const PlanePrimitives cube = without_sides(furnished_cube().planes());
+  for (const Vector3d& up : {Vector3d(0, 0, 1), Vector3d(0, 0, -1), Vector3d(0, 1, 0), Vector3d(0, -1, 0),
+                             Vector3d(1, 0, 0), Vector3d(-1, 0, 0)}) {
+    test::Warnings warnings;
+    const Transform frame = chained(frame_with(up), turn({1, 2, 0.5}, 3));
+    const auto out = Gravity::run({input(transformed(cube, frame)), {}}, {}, warnings.context());
+    EXPECT_LT(degrees_off(out, frame), 1e-3) << up.transpose();
+    EXPECT_NEAR(out.transform.rotation.determinant(), 1, 1e-12);
+    EXPECT_EQ(warnings.texts().empty(), up.z() > 0) << up.transpose();
+    if (up.z() > 0) continue;
+    const auto setting = fmt::format("-s upright.up=[{},{},{}]", up.x() + 0.0, up.y() + 0.0, up.z() + 0.0);
+    ASSERT_EQ(warnings.texts().size(), 1U);
+    EXPECT_NE(warnings.texts()[0].find(setting), std::string::npos) << warnings.texts()[0];
+  }
+}
+
+TEST(AlignGravity, BelievesZWhereNothingTells) {
+  test::Rooms cube;
+  cube.floor(0, 0, 3, 3).ceiling(0, 0, 3, 3, 3).walls({{0, 0}, {3, 0}, {3, 3}, {0, 3}}, 0, 0, 3);
+  test::Warnings warnings;
+  const auto out = Gravity::run({input(without_sides(cube.planes())), {}}, {}, warnings.context());
+  EXPECT_LT(degrees_off(out, {}), 1e-6);
+  // The format's habit is enough where nothing else tells.
+  const auto habit =
+      Gravity::run({input(without_sides(cube.planes())), {}}, {.habit = Gravity::Habit::y}, warnings.context());
+  EXPECT_NEAR((habit.transform.rotation * Vector3d::UnitY() - Vector3d::UnitZ()).norm(), 0, 1e-6);
+}
+
+TEST(AlignGravity, TakesOutATiltAndWarnsOfALargeOne) {
+  const PlanePrimitives room = without_sides(test::box_room().planes());
+  for (const double tilt : {0.0, 0.7, 4.0, 6.0, 12.0}) {
+    test::Warnings warnings;
+    const Transform frame = turn({1, 2, 0}, tilt);
+    const auto out = Gravity::run({input(transformed(room, frame)), {}}, {}, warnings.context());
+    EXPECT_LT(degrees_off(out, frame), 1e-3) << tilt;
+    EXPECT_EQ(warnings.texts().size(), tilt > 5 ? 1U : 0U) << tilt;
+  }
+}
+
+/// Slopes of 45 degrees with more area than the floor.
+test::Rooms attic() {
+  test::Rooms rooms;
+  rooms.floor(0, 0, 8, 7).ceiling(0, 2.2, 8, 4.8, 3.2).wall(0, 0, 8, 0, 0, 1).wall(8, 7, 0, 7, 0, 1);
+  rooms.add({0, 0, 1}, {8, 0, 0}, {0, 2.2, 2.2}, {0, 1, -1}).add({0, 7, 1}, {8, 0, 0}, {0, -2.2, 2.2}, {0, -1, -1});
+  const auto under = [](const Vector3d& p) { return p.z() < std::min(3.2, 1 + std::min(p.y(), 7 - p.y())); };
+  rooms.add({8, 0, 0}, {0, 7, 0}, {0, 0, 3.2}, {-1, 0, 0}, under)
+      .add({0, 0, 0}, {0, 7, 0}, {0, 0, 3.2}, {1, 0, 0}, under);
+  return rooms;
+}
+
+TEST(AlignGravity, SlopesDoNotTiltAnAttic) {
+  for (const double tilt : {0.0, 2.5}) {
+    test::Warnings warnings;
+    const Transform frame = turn({1, -1, 0}, tilt);
+    const auto out =
+        Gravity::run({input(transformed(without_sides(attic().planes()), frame)), {}}, {}, warnings.context());
+    EXPECT_LT(degrees_off(out, frame), 1e-3);
+    EXPECT_TRUE(warnings.texts().empty());
+  }
+}
+
+TEST(AlignGravity, WallsAloneGiveTheTilt) {
+  test::Rooms rooms;
+  rooms.walls(test::l_outline());
+  test::Warnings warnings;
+  const Transform frame = turn({1, 2, 0}, 3);
+  const auto out = Gravity::run({input(transformed(rooms.planes(), frame)), {}}, {}, warnings.context());
+  EXPECT_LT(degrees_off(out, frame), 1e-3);
+}
+
+TEST(AlignGravity, UpForcesTheAxisButNotTheTilt) {
+  const PlanePrimitives cube = furnished_cube().planes();
+  Context context;
+  const Transform frame = turn({1, 2, 0}, 3);
+  const auto out = Gravity::run({input(transformed(cube, frame)), {}}, {.up = {0, -2, 0}}, context);
+  const Vector3d down = out.transform.rotation * frame.rotation * Vector3d::UnitY();
+  EXPECT_NEAR(down.z(), -1, 1e-6);
+  EXPECT_THROW(Gravity::run({input(cube), {}}, {.up = {0, 1}}, context), Error);
+  EXPECT_THROW(Gravity::run({input(cube), {}}, {.up = {0, std::nan(""), 1}}, context), Error);
+}
+
+TEST(AlignGravity, TransformLeadsFromTheInputFrameOverEarlierSteps) {
+  Context context;
+  const PlanePrimitives room = test::box_room().origin({500000, 5400000, 300}).planes();
+  const Transform earlier = turn({2, 1, 1}, 5);
+  const auto out = Gravity::run({input(transformed(room, earlier)), input(earlier)}, {}, context);
+  const Transform back = inverse(out.transform);
+  const auto& cloud = *out.planes.cloud;
+  for (std::size_t i = 0; i < cloud.size(); i += 97) {
+    const Vector3d there = cloud.origin + cloud.points[i].cast<double>();
+    const Vector3d here = room.cloud->origin + room.cloud->points[i].cast<double>();
+    EXPECT_NEAR((back.rotation * there + back.translation - here).norm(), 0, 1e-5);
+  }
+}
+
+TEST(AlignGravity, NoPlaneIsAnError) {
+  Context context;
+  EXPECT_THROW(Gravity::run({input(PlanePrimitives{}), {}}, {}, context), Error);
+}
+
+}  // namespace
+}  // namespace atrium::align

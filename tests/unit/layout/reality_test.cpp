@@ -1,0 +1,83 @@
+// What scans of real buildings show beside plain rooms: ground outside, raised floors, beams, rooms without a ceiling.
+#include <gtest/gtest.h>
+
+#include "tests/support/rooms.hpp"
+#include "tests/unit/layout/chain.hpp"
+
+namespace atrium::layout {
+namespace {
+
+using namespace atrium::test;
+using Scene = atrium::test::Rooms;
+
+Scene& add_box(Scene& scene, double x0, double y0, double x1, double y1, double bottom = 0, double top = 2.5,
+               bool ceiling = true) {
+  if (ceiling) scene.ceiling(x0, y0, x1, y1, top);
+  return scene.floor(x0, y0, x1, y1, bottom).walls({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, 0, bottom, top);
+}
+
+TEST(Reality, GroundOutsideIsNoFloorHoweverLarge) {
+  Scene scene;
+  add_box(scene, 0, 0, 5, 4);
+  scene.floor(-4, -16, 12, -1.5, -0.5);
+  const auto layout = laid_out(scene.planes());
+  EXPECT_EQ(flaw(layout), "");
+  ASSERT_EQ(layout.building.rooms.size(), 1U);
+  EXPECT_NEAR(layout.building.rooms[0].area, 20, 1e-3);
+  EXPECT_NEAR(layout.building.rooms[0].height, 2.5, 1e-3);
+}
+
+TEST(Reality, ASmallRoomMayStandHigherThanALargeOne) {
+  Scene scene;
+  add_box(scene, 0, 0, 7, 5, 0, 2.6);
+  add_box(scene, 7.12, 0, 9, 3, 0.5, 3.1);
+  const auto layout = laid_out(scene.planes());
+  ASSERT_EQ(layout.building.rooms.size(), 2U);
+  EXPECT_NEAR(layout.building.rooms[1].area, 5.64, 1e-3);
+  EXPECT_NEAR(layout.building.rooms[1].height, 2.6, 1e-3);
+}
+
+TEST(Reality, ABedInACornerIsNoFloor) {
+  Scene scene;
+  add_box(scene, 0, 0, 5, 4);
+  scene.floor(0, 0, 2, 2.2, 0.5).wall(2, 2.2, 2, 0, 0, 0.5).wall(0, 2.2, 2, 2.2, 0, 0.5);
+  const auto layout = laid_out(scene.planes());
+  ASSERT_EQ(layout.building.rooms.size(), 1U);
+  EXPECT_NEAR(layout.building.rooms[0].volume, 50, 0.01);
+}
+
+TEST(Reality, ABeamUnderTheCeilingPartsNoRoom) {
+  Scene scene;
+  add_box(scene, 0, 0, 6, 4, 0, 3.8);
+  scene.wall(3, 0, 3, 4, 3.1, 3.8).wall(3.3, 4, 3.3, 0, 3.1, 3.8).ceiling(3, 0, 3.3, 4, 3.1);
+  const auto layout = laid_out(scene.planes());
+  EXPECT_EQ(flaw(layout), "");
+  ASSERT_EQ(layout.building.rooms.size(), 1U);
+  EXPECT_NEAR(layout.building.rooms[0].area, 24, 1e-3);
+}
+
+TEST(Reality, ARoomWithoutAScannedCeilingStaysBesideOneWithIt) {
+  Scene scene;
+  add_box(scene, 0, 0, 5, 4);
+  add_box(scene, 5.12, 0, 9, 4, 0, 2.5, false);
+  const auto layout = laid_out(scene.planes());
+  EXPECT_EQ(flaw(layout), "");
+  ASSERT_EQ(layout.building.rooms.size(), 2U);
+  EXPECT_NEAR(layout.building.rooms[1].area, 15.52, 1e-3);
+  EXPECT_NEAR(layout.building.rooms[1].height, 2.5, 0.06);
+}
+
+TEST(Reality, AColumnShowsItsFacesAndAStrayPairOfWallsIsNone) {
+  const auto with = [](double bottom, double top) {
+    Scene scene;
+    add_box(scene, 0, 0, 6, 5);
+    scene.wall(2.8, 2.3, 2.8, 2.7, bottom, top).wall(2.8, 2.7, 3.2, 2.7, bottom, top);
+    scene.wall(3.2, 2.7, 3.2, 2.3, bottom, top).wall(3.2, 2.3, 2.8, 2.3, bottom, top);
+    return laid_out(scene.planes());
+  };
+  EXPECT_NEAR(with(0, 2.5).building.rooms.at(0).area, 30 - 0.16, 1e-3);
+  EXPECT_NEAR(with(0, 1.2).building.rooms.at(0).area, 30, 1e-3);
+}
+
+}  // namespace
+}  // namespace atrium::layout
