@@ -15,7 +15,6 @@
 namespace atrium::plane {
 namespace {
 
-constexpr std::uint32_t leaf_size = 32;
 constexpr std::uint32_t least_level = 2;  // of a voxel above the order's cells
 constexpr double least_distance = 0.002;
 constexpr double distance_per_residual = 2.5;
@@ -148,7 +147,7 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
   limits.min_points = params.min_points > 0 ? static_cast<std::size_t>(std::max(3, params.min_points))
                                             : std::max<std::size_t>(50, cloud.size() / 2000);
 
-  const PointOctree octree(order.columns, order.codes, leaf_size, context);
+  const PointOctree octree(order.columns, order.codes, octree_leaf_size, context);
   constexpr float any_normal = -2;
   const Tolerance tolerance{static_cast<float>(limits.distance), any_normal};
   KnownVoxels known_voxels;
