@@ -16,7 +16,7 @@
 namespace atrium {
 namespace {
 
-double thread_cpu_seconds() {
+double cpu_seconds_of_thread() {
   timespec now{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
@@ -26,9 +26,9 @@ double thread_cpu_seconds() {
 class HelpTimer {
  public:
   HelpTimer(ContextHost& host, bool helping)
-      : host_(host), helping_(helping), start_(helping ? thread_cpu_seconds() : 0) {}
+      : host_(host), helping_(helping), start_(helping ? cpu_seconds_of_thread() : 0) {}
   ~HelpTimer() {
-    if (helping_) host_.helped(thread_cpu_seconds() - start_);
+    if (helping_) host_.helped(cpu_seconds_of_thread() - start_);
   }
   HelpTimer(const HelpTimer&) = delete;
   HelpTimer& operator=(const HelpTimer&) = delete;

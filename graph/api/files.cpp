@@ -33,4 +33,10 @@ std::string read_text(const std::filesystem::path& file) {
   return text;
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Error("cannot make the folder " + folder.string() + ": " + error.message());
+}
+
 }  // namespace atrium

@@ -23,12 +23,6 @@ constexpr double seconds_per_file = 0.01;  // of a value, besides its bytes
 constexpr std::uint64_t measurable = 1'000'000;
 constexpr std::uint64_t most_waiting = 1'000'000'000;  // bytes of values that are kept in memory until they are written
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw Error("cannot make the folder " + folder.string() + ": " + error.message());
-}
-
 /// Nothing is wrong with a file that cannot be read now: no memory, too many open files, no permission. No Error, which
 /// would say that the value which shares it is damaged.
 class Passing : public std::runtime_error {

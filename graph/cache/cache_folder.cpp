@@ -81,12 +81,6 @@ void see_file(const fs::path& file, CacheKind kind, std::string_view folder,
   see({file, kind, !whole.empty(), static_cast<std::uint64_t>(info.st_blocks) * 512, info.st_mtim});
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw Error("cannot make the folder " + folder.string() + ": " + error.message());
-}
-
 /// But for what killed processes left of files that they were writing.
 bool holds_nothing(const fs::path& folder) {
   try {

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
 #include "graph/run/record_json.hpp"
 
 namespace atrium {
@@ -76,7 +77,7 @@ std::string record_text(const CacheRecord& record) {
                   {"cpu_seconds", record.cpu},
                   {"peak_memory", record.peak_memory},
                   {"growth", record.growth ? Json(*record.growth) : Json()}};
-  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text = json_text(json) + "\n";
   return hash_of(text) + "\n" + text;
 }
 
@@ -86,7 +87,7 @@ std::optional<CacheRecord> read_record(const std::string& text) {
   const std::string_view rest = std::string_view(text).substr(line + 1);
   if (hash_of(rest) != std::string_view(text).substr(0, line)) return std::nullopt;
   try {
-    const Json json = Json::parse(rest);
+    const Json json = read_json(rest);
     if (json.at("version") != version) return std::nullopt;
     CacheRecord record = from_json(json);
     if (NodeKey{record.fields}.hex() != record.key) return std::nullopt;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
 #include "graph/cache/cache_folder.hpp"
 #include "graph/cache/upkeep.hpp"
 #include "graph/cli/verbs.hpp"
@@ -15,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-struct Options {
+struct CacheArguments {
   CacheChoice cache;
   bool json = false;
 };
@@ -28,7 +29,7 @@ CachePlaces places_of(const CacheChoice& choice) {
   return places;
 }
 
-int stat(const Options& options) {
+int stat(const CacheArguments& options) {
   const CachePlaces places = places_of(options.cache);
   const CacheContents contents = contents_of(places);
   const std::pair<const char*, CacheContents::Share> shares[] = {{"records", contents.records},
@@ -41,7 +42,7 @@ int stat(const Options& options) {
     for (const auto& [name, share] : shares) json[name] = {{"files", share.files}, {"bytes", share.bytes}};
     json["types"] = Json::object();
     for (const auto& [type, records] : contents.of_type) json["types"][type] = records;
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(json, 2));
     return ok;
   }
   fmt::print("{}\n", places.folder.string());
@@ -50,16 +51,16 @@ int stat(const Options& options) {
   return ok;
 }
 
-int gc(const Options& options) {
+int gc(const CacheArguments& options) {
   const CachePlaces places = places_of(options.cache);
   const auto removed = collect_garbage(places, read_size(options.cache.size));
   if (!removed) throw Error("another process is removing files from " + places.folder.string(), "try again later");
   if (options.json) {
-    fmt::print("{}\n", Json{{"folder", places.folder.string()},
-                            {"removed_files", removed->files},
-                            {"removed_bytes", removed->bytes},
-                            {"bytes", removed->left}}
-                           .dump(2));
+    fmt::print("{}\n", json_text(Json{{"folder", places.folder.string()},
+                                      {"removed_files", removed->files},
+                                      {"removed_bytes", removed->bytes},
+                                      {"bytes", removed->left}},
+                                 2));
     return ok;
   }
   fmt::print("removed {} ({}); {} are left\n", counted(removed->files, "file"), size_text(removed->bytes),
@@ -67,7 +68,7 @@ int gc(const Options& options) {
   return ok;
 }
 
-int verify(const Options& options) {
+int verify(const CacheArguments& options) {
   const CachePlaces places = places_of(options.cache);
   std::uint64_t checked = 0;
   const auto problems = verify_cache(places, checked);
@@ -76,7 +77,7 @@ int verify(const Options& options) {
   for (const auto& problem : problems) (problem.removed ? removed : left).push_back(problem.what);
   if (options.json) {
     const Json json{{"folder", places.folder.string()}, {"checked", checked}, {"removed", removed}, {"left", left}};
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(json, 2));
   } else {
     for (const auto& problem : problems) fmt::print("{}: {}\n", problem.removed ? "removed" : "left", problem.what);
     fmt::print("{} checked, {} removed{}\n", counted(checked, "file"), removed.size(),
@@ -130,8 +131,8 @@ std::unique_ptr<Cache> open_cache(const CacheChoice& choice) {
 void add_cache(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("cache", "What is kept of earlier runs: shows it, makes it smaller, checks it.");
   verb->require_subcommand(1);
-  const auto options = std::make_shared<Options>();
-  const auto add = [&](const char* name, const char* text, int (*work)(const Options&)) {
+  const auto options = std::make_shared<CacheArguments>();
+  const auto add = [&](const char* name, const char* text, int (*work)(const CacheArguments&)) {
     auto* sub = verb->add_subcommand(name, text);
     sub->add_option("--cache", options->cache.folder, "its folder (default: as for `atrium run`)")->type_name("DIR");
     sub->add_flag("--json", options->json, "results as JSON on stdout");

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
 #include "graph/cli/verbs.hpp"
 #include "graph/pipeline/pipeline.hpp"
 #include "graph/pipeline/registry.hpp"
@@ -28,10 +29,10 @@ void print_json(const LoadResult& result) {
                                       {"errors", to_json(result.errors)},
                                       {"warnings", to_json(result.warnings)},
                                       {"missing", result.missing}};
-  fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  fmt::print("{}\n", json_text(report, 2));
 }
 
-void print_summary(const LoadResult& result) {
+void print_check_summary(const LoadResult& result) {
   const std::size_t nodes = result.pipeline.nodes.size();
   fmt::print("ok: {} node{}", nodes, nodes == 1 ? "" : "s");
   std::string variables, inputs;
@@ -87,7 +88,7 @@ void add_check(CLI::App& app, int& exit_code) {
       print_json(result);
     else
       print_findings(result);
-    if (!options->json && result.errors.empty()) print_summary(result);
+    if (!options->json && result.errors.empty()) print_check_summary(result);
     exit_code = result.errors.empty() ? ok : invalid;
   });
 }

@@ -7,12 +7,12 @@
 namespace atrium::cli {
 namespace {
 
-struct Options {
+struct DiffArguments {
   std::string a, b, pictures;
   bool json = false, exit_code = false;
 };
 
-int compare(const Options& options) {
+int compare(const DiffArguments& options) {
   const report::RunRecord a = report::read_run(options.a);
   const report::RunRecord b = report::read_run(options.b);
   const report::Difference difference = report::compare(a, b, options.pictures);
@@ -21,7 +21,7 @@ int compare(const Options& options) {
 }
 
 /// 1 says that they differ: what goes wrong is another number.
-int diff(const Options& options) {
+int diff(const DiffArguments& options) {
   try {
     return compare(options);
   } catch (const std::exception& error) {
@@ -37,7 +37,7 @@ void add_diff(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand(
       "diff",
       "Says what differs between two runs or variants: parameters, metrics, pictures, files, and the first node.");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DiffArguments>();
   verb->add_option("RUN", options->a, "the folder of a run, or of a variant (SWEEP/variants/ID)")
       ->required()
       ->type_name("");

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
 #include "graph/api/suggest.hpp"
 #include "graph/cli/verbs.hpp"
 #include "graph/pipeline/registry.hpp"
@@ -76,7 +77,7 @@ void print_json(const Types& types) {
                     {"inputs", ports_json(node->inputs)},
                     {"outputs", ports_json(node->outputs)},
                     {"params", params_json(node->params)}});
-  fmt::print("{}\n", list.dump(2));
+  fmt::print("{}\n", json_text(list, 2));
 }
 
 std::string cell(std::string text) {

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
 #include "graph/cli/verbs.hpp"
 #include "graph/report/page.hpp"
 
@@ -11,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ReportArguments {
   std::string folder, file;
   std::vector<std::string> models;
   std::size_t most_models = 1'000'000;
@@ -19,7 +20,7 @@ struct Options {
   bool json = false;
 };
 
-int report(const Options& options) {
+int report(const ReportArguments& options) {
   const report::SweepRecord record = report::read_sweep_folder(options.folder);
   report::AttachmentOptions attach_options;
   attach_options.models = options.models;
@@ -38,7 +39,7 @@ int report(const Options& options) {
                                       {"pictures", attachments.pictures},
                                       {"models", attachments.models},
                                       {"notes", notes}};
-    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(json, 2));
   } else {
     fmt::print("{}: {}, {}, {}, {:.1f} MB\n", target.string(), counted(record.variants.size(), "variant"),
                counted(attachments.pictures, "picture"), counted(attachments.models, "model"),
@@ -52,7 +53,7 @@ int report(const Options& options) {
 void add_report(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand(
       "report", "Writes one HTML file about a sweep or a run: table, plots, pictures, models in 3D, times.");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReportArguments>();
   verb->add_option("FOLDER", options->folder, "the folder of a sweep or of a run")->required()->type_name("");
   verb->add_option("-o,--output", options->file, "the file to write (default: FOLDER/report.html)")->type_name("FILE");
   verb->add_option(

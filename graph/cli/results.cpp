@@ -7,6 +7,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
+
 namespace atrium::cli {
 namespace {
 
@@ -88,7 +90,7 @@ std::string results_json(const Pipeline& pipeline, const RunResult& result, cons
                   {"seconds", result.wall},
                   {"outputs", std::move(outputs)},
                   {"failures", std::move(failures)}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 }  // namespace atrium::cli

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct RunArguments {
   std::string file;
   std::vector<std::string> settings;
   std::string out;
@@ -34,7 +34,7 @@ fs::path new_folder(const fs::path& file) {
   return folder;
 }
 
-void print_summary(const RunResult& result, const fs::path& folder) {
+void print_run_summary(const RunResult& result, const fs::path& folder) {
   std::size_t of_status[4] = {};
   for (const auto& node : result.nodes) ++of_status[static_cast<std::size_t>(node.status)];
   const auto number = [&](NodeStatus status) { return of_status[static_cast<std::size_t>(status)]; };
@@ -54,7 +54,7 @@ void limit_openmp(int threads) {
   if (threads > 0) ::setenv("OMP_NUM_THREADS", std::to_string(threads).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
 }
 
-int run(const Options& options) {
+int run_file(const RunArguments& options) {
   limit_openmp(options.threads);
   Registry registry;
   const LoadResult loaded = load_pipeline(options.file, to_overrides(options.settings), registry);
@@ -78,7 +78,7 @@ int run(const Options& options) {
   }
   for (const auto& problem : result.cache_problems)
     if (!options.quiet) fmt::print(stderr, "warning: {}\n", problem);
-  if (!options.quiet) print_summary(result, run_options.out);
+  if (!options.quiet) print_run_summary(result, run_options.out);
   if (options.json)
     fmt::print("{}", results_json(loaded.pipeline, result, fs::absolute(run_options.out)));
   else
@@ -92,7 +92,7 @@ int run(const Options& options) {
 void add_run(CLI::App& app, int& exit_code) {
   auto* verb =
       app.add_subcommand("run", "Runs a pipeline: results on stdout, files and a record of the run in a folder.");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunArguments>();
   verb->add_option("FILE", options->file, "the pipeline file, or a picture that a run has made (PNG)")
       ->required()
       ->type_name("");
@@ -104,7 +104,7 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->add_flag("--json", options->json, "results as JSON on stdout");
   verb->add_flag("--no-hashes", options->no_hashes, "leave the content hashes of outputs out of manifest.json");
   add_cache_options(*verb, options->cache);
-  verb->callback([options, &exit_code] { exit_code = run(*options); });
+  verb->callback([options, &exit_code] { exit_code = run_file(*options); });
 }
 
 }  // namespace atrium::cli

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
 #include "graph/cli/verbs.hpp"
 #include "graph/pipeline/registry.hpp"
 
@@ -159,7 +160,7 @@ void add_schema(CLI::App& app, int& /*exit_code*/) {
   auto* verb = app.add_subcommand("schema", "Prints the JSON schema of pipeline files, for editors.");
   verb->callback([] {
     Registry registry;
-    fmt::print("{}\n", schema_of(registry.all()).dump(2));
+    fmt::print("{}\n", json_text(schema_of(registry.all()), 2));
   });
 }
 

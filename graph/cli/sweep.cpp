@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
 #include "graph/cache/upkeep.hpp"
 #include "graph/cli/signals.hpp"
 #include "graph/cli/sweep_output.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct SweepArguments {
   std::string file;
   std::vector<std::string> settings;
   std::string out;
@@ -31,7 +32,7 @@ struct Options {
   std::string memory;
 };
 
-fs::path folder_of(const Options& options) {
+fs::path folder_of(const SweepArguments& options) {
   return options.out.empty() ? fs::path("runs") / fs::path(options.file).stem() : fs::path(options.out);
 }
 
@@ -85,10 +86,10 @@ void print_plan_json(const SweepForecast& forecast, const SweepPlan& plan, const
                                     {"memory", forecast.memory},
                                     {"excluded", plan.excluded},
                                     {"duplicates", plan.duplicates}};
-  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  fmt::print("{}\n", json_text(json, 2));
 }
 
-int plan(const Options& options) {
+int plan(const SweepArguments& options) {
   Registry registry;
   const LoadedSweep loaded = load_sweep(options.file, to_overrides(options.settings), registry);
   if (!loaded.sweep) return invalid;
@@ -117,7 +118,7 @@ int plan(const Options& options) {
   return ok;
 }
 
-int run(const Options& options) {
+int run_variants(const SweepArguments& options) {
   if (options.threads > 0)
     ::setenv("OMP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
   Registry registry;
@@ -153,7 +154,7 @@ int run(const Options& options) {
   return finish_sweep(loaded, result, registry, sweep_options, options.json, options.quiet);
 }
 
-void add_common(CLI::App& verb, Options& options) {
+void add_common(CLI::App& verb, SweepArguments& options) {
   verb.add_option("FILE", options.file, "the sweep file")->required()->type_name("");
   add_settings(verb, options.settings);
   verb.add_option("--out", options.out, "the sweep's folder (default: runs/NAME); what is done in it is not done again")
@@ -166,7 +167,7 @@ void add_common(CLI::App& verb, Options& options) {
 void add_sweep(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("sweep", "Runs many variants of a pipeline; what they share is run once.");
   verb->require_subcommand(1);
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SweepArguments>();
   auto* planned = verb->add_subcommand("plan", "Checks all variants and lists them, with what is done already.");
   add_common(*planned, *options);
   add_cache_options(*planned, options->cache);
@@ -191,7 +192,7 @@ void add_sweep(CLI::App& app, int& exit_code) {
   ran->add_option("--timeout", options->timeout, "with --isolate: seconds after which a variant is ended; 0: none")
       ->check(CLI::Range(0.0, 1e9))
       ->needs("--isolate");
-  ran->callback([options, &exit_code] { exit_code = run(*options); });
+  ran->callback([options, &exit_code] { exit_code = run_variants(*options); });
   add_sweep_submit(*verb, exit_code);
   add_sweep_gather(*verb, exit_code);
   add_sweep_work(*verb, exit_code);

@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
 #include "graph/sweep/sheets.hpp"
 
 namespace atrium::cli {
@@ -42,8 +43,7 @@ int print_sweep(const SweepFile& sweep, const SweepPlan& plan, const SweepResult
       for (std::size_t c = 0; c < row.size(); ++c) entry[table.columns[c].title] = row[c];
       variants.push_back(std::move(entry));
     }
-    fmt::print("{}\n", nlohmann::ordered_json{{"variants", std::move(variants)}}.dump(
-                           2, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(nlohmann::ordered_json{{"variants", std::move(variants)}}, 2));
   } else {
     fmt::print("{}", as_text(short_table(sweep, plan, result.variants)));
   }

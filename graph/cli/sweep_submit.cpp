@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct SubmitArguments {
   std::string file, out, engine, memory;
   std::vector<std::string> settings, engine_options;
   std::size_t shards = 0;
@@ -36,7 +36,7 @@ void check_engine(const std::string& engine) {
                             engine == "slurm" ? "slurm-client" : "parallel"));
 }
 
-int submit(const Options& options) {
+int submit(const SubmitArguments& options) {
   Registry registry;
   const LoadedSweep loaded = load_sweep(options.file, to_overrides(options.settings), registry);
   if (!loaded.sweep) return invalid;
@@ -88,7 +88,7 @@ int submit(const Options& options) {
   return ok;
 }
 
-int gather(const Options& options) {
+int gather(const SubmitArguments& options) {
   const fs::path out = fs::absolute(options.out).lexically_normal();
   const Submission submission = read_submission(out);
   Registry registry;
@@ -108,7 +108,7 @@ void add_sweep_submit(CLI::App& sweep, int& exit_code) {
   auto* verb = sweep.add_subcommand("submit",
                                     "Hands the variants that are not done to Slurm or GNU parallel, what several share "
                                     "first; see share/doc/farm.md.");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SubmitArguments>();
   verb->add_option("FILE", options->file, "the sweep file")->required();
   verb->add_option("ENGINE_OPTIONS", options->engine_options,
                    "after --, passed on to sbatch or parallel: -- --partition=long --time=2:00:00");
@@ -135,7 +135,7 @@ void add_sweep_submit(CLI::App& sweep, int& exit_code) {
 void add_sweep_gather(CLI::App& sweep, int& exit_code) {
   auto* verb = sweep.add_subcommand(
       "gather", "Joins what the shards of `submit` have left so far, as `run` would have left it; prints the table.");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SubmitArguments>();
   verb->add_option("DIR", options->out, "the sweep's folder")->required();
   verb->add_flag("-q,--quiet", options->quiet, "errors only on stderr");
   verb->add_flag("--json", options->json, "results as JSON on stdout");

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct WorkArguments {
   std::string folder;
   std::vector<std::string> tasks, skipped;
   std::string build, memory;
@@ -43,7 +43,7 @@ WorkerTask task_of(const fs::path& folder, const std::vector<std::string>& names
   return task;
 }
 
-int work_here(const Options& options) {
+int work_here(const WorkArguments& options) {
   ::fcntl(WorkerProcess::events_file, F_SETFD, FD_CLOEXEC);  // not for programs that nodes start
   if (options.threads > 0)
     ::setenv("OMP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
@@ -64,7 +64,7 @@ int work_here(const Options& options) {
 }
 
 /// A task of a submission: each of its variants in a process of its own.
-int work(const Options& options) {
+int work(const WorkArguments& options) {
   const CancelOnSignal signals;
   Registry registry;
   ConsoleProgress progress(console_options(stderr, false));
@@ -91,7 +91,7 @@ std::string own_program() {
 
 void add_sweep_work(CLI::App& sweep, int& exit_code) {
   auto* verb = sweep.add_subcommand("work", "What the processes of a sweep run; started by the other verbs.");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<WorkArguments>();
   verb->add_option("DIR", options->folder, "the sweep's folder")->required();
   verb->add_option("TASK", options->tasks, "a file in DIR/farm, or ids of variants")->required();
   verb->add_flag("--here", options->here, "in this process");

@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "graph/api/json_text.hpp"
 #include "graph/api/suggest.hpp"
 #include "graph/cache/nearest.hpp"
 #include "graph/cli/verbs.hpp"
@@ -18,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-struct Options {
+struct WhyArguments {
   std::string run, node, folder;
   bool json = false;
 };
@@ -32,8 +33,7 @@ struct Record {
 
 /// A JSON object, or nothing if it cannot be read.
 Json read_object(const fs::path& path) {
-  std::ifstream file(path);
-  Json json = Json::parse(file, nullptr, false);
+  Json json = read_json_file(path);
   return json.is_object() ? json : Json();
 }
 
@@ -114,7 +114,7 @@ Json to_json(const std::vector<KeyDifference>& differences) {
   return json;
 }
 
-int explain_miss(const Options& options, const CachePlaces& places, const Json& nodes, const Json& node) {
+int explain_miss(const WhyArguments& options, const CachePlaces& places, const Json& nodes, const Json& node) {
   const std::string key = node.at("cache").value("key", "");
   const std::string type = node.at("type");
   const auto record = key.empty() ? std::nullopt : record_of(places, type, key);
@@ -128,7 +128,7 @@ int explain_miss(const Options& options, const CachePlaces& places, const Json& 
                          {"node", nearest->record.node},
                          {"made", nearest->record.made},
                          {"differences", to_json(nearest->differences)}};
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(json, 2));
     return ok;
   }
   fmt::print("{} was run: {}\n", options.node, node.at("cache").value("why", ""));
@@ -145,13 +145,13 @@ int explain_miss(const Options& options, const CachePlaces& places, const Json& 
   return ok;
 }
 
-int why(const Options& options) {
+int why(const WhyArguments& options) {
   std::string name = options.node;
   const Record record = read_record(options.run, name);
   const Json& node = node_of(record, name);
   if (!node.contains("cache") || record.folder.empty()) {
     if (options.json)
-      fmt::print("{}\n", Json{{"node", options.node}, {"result", "off"}}.dump(2));
+      fmt::print("{}\n", json_text(Json{{"node", options.node}, {"result", "off"}}, 2));
     else
       fmt::print("{} was run: there was no cache\n", options.node);
     return ok;
@@ -161,7 +161,7 @@ int why(const Options& options) {
   if (options.json) {
     Json json{{"node", options.node}};
     json.update(node.at("cache"));
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json, 2));
     return ok;
   }
   const std::string again = node.at("cache").value("why", "");
@@ -174,7 +174,7 @@ int why(const Options& options) {
 
 void add_why(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("why", "Says why a node of a run was computed, or where its result came from.");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<WhyArguments>();
   verb->add_option("RUN", options->run, "the folder of a run or of a sweep")->required()->type_name("");
   verb->add_option("NODE", options->node, "the node's address (of a sweep: VARIANT/NODE)")->required()->type_name("");
   verb->add_option("--cache", options->folder, "the cache's folder (default: the one of the run)")->type_name("DIR");

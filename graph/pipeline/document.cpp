@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::string_view name_help = "names are lower-case letters, digits and _, and begin with a letter";
 
-class Reader {
+class DocumentReader {
  public:
-  Reader(Document& document, Findings& findings) : document_(document), findings_(findings) {}
+  DocumentReader(Document& document, Findings& findings) : document_(document), findings_(findings) {}
 
   void read(const YamlNode& root) {
     if (const auto* sweep = root.find("sweep"); sweep != nullptr && root.find("nodes") == nullptr) {
@@ -314,7 +314,7 @@ std::unique_ptr<Document> read_document(const std::filesystem::path& path, std::
                    "it begins with `atrium: 1`");
     return nullptr;
   }
-  Reader(*document, findings).read(*tree.root);
+  DocumentReader(*document, findings).read(*tree.root);
   return document;
 }
 

@@ -25,14 +25,14 @@ ParamValue escaped(const ParamValue& value) {
   return value;
 }
 
-std::string port(const Pipeline& pipeline, const Edge& edge) {
+std::string port_name(const Pipeline& pipeline, const Edge& edge) {
   const PipelineNode& node = pipeline.nodes[edge.node];
   return fmt::format("{}.{}", node.path, node.type->outputs[edge.output].name);
 }
 
 std::string wiring(const Pipeline& pipeline, const PortInfo& info, const std::vector<Edge>& edges) {
   std::string list;
-  for (const auto& edge : edges) list += (list.empty() ? "" : ", ") + port(pipeline, edge);
+  for (const auto& edge : edges) list += (list.empty() ? "" : ", ") + port_name(pipeline, edge);
   return info.repeated ? "[" + list + "]" : list;
 }
 
@@ -81,7 +81,7 @@ std::string resolved_yaml(const Pipeline& pipeline, const std::filesystem::path&
   for (const auto& node : pipeline.nodes) result += node_yaml(pipeline, node, folder);
   if (!pipeline.outputs.empty()) result += "outputs:\n";
   for (const auto& output : pipeline.outputs)
-    result += fmt::format("  {}: {}\n", output.name, port(pipeline, output.from));
+    result += fmt::format("  {}: {}\n", output.name, port_name(pipeline, output.from));
   return result;
 }
 

@@ -12,10 +12,10 @@ namespace atrium {
 namespace {
 
 /// From each node to those that it reads: a depth-first search then finishes sources before readers.
-using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS>;
+using OrderGraph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS>;
 
-Graph build(const Expansion& expansion) {
-  Graph graph(expansion.nodes.size());
+OrderGraph build(const Expansion& expansion) {
+  OrderGraph graph(expansion.nodes.size());
   for (std::size_t i = 0; i < expansion.nodes.size(); ++i)
     for (const auto& port : expansion.nodes[i].inputs)
       for (const auto& edge : port) boost::add_edge(i, edge.from.node, graph);
@@ -51,7 +51,7 @@ std::vector<const FlatEdge*> shortest_cycle(const Expansion& expansion, const st
   return {};
 }
 
-void report_cycles(const Expansion& expansion, const Graph& graph, Findings& findings) {
+void report_cycles(const Expansion& expansion, const OrderGraph& graph, Findings& findings) {
   std::vector<int> component(expansion.nodes.size());
   const int count = boost::strong_components(
       graph, boost::make_iterator_property_map(component.begin(), boost::get(boost::vertex_index, graph)));
@@ -75,7 +75,7 @@ void report_cycles(const Expansion& expansion, const Graph& graph, Findings& fin
 }  // namespace
 
 std::vector<std::size_t> run_order(const Expansion& expansion, Findings& findings) {
-  const Graph graph = build(expansion);
+  const OrderGraph graph = build(expansion);
   std::vector<std::size_t> order;
   order.reserve(expansion.nodes.size());
   try {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
 #include "graph/report/difference.hpp"
 
 namespace atrium::report {
@@ -135,7 +136,7 @@ std::string as_json(const Difference& d) {
   json["first_node"] =
       d.first ? Json{{"node", d.first->path}, {"type", d.first->type}, {"output", d.first->port}} : Json();
   json["nodes"] = {{"compared", d.compared_nodes}, {"different", d.different_nodes}, {"unknown", d.unknown_nodes}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 }  // namespace atrium::report

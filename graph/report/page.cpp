@@ -10,6 +10,7 @@
 
 #include "graph/api/context.hpp"
 #include "graph/api/files.hpp"
+#include "graph/api/json_text.hpp"
 #include "graph/pipeline/pipeline.hpp"
 
 namespace atrium::report {
@@ -195,7 +196,7 @@ std::string page_data(const SweepRecord& record, const Attachments& attachments)
                   {"notes", std::move(notes)},
                   {"variants", std::move(variants)}};
   // In JSON "<" stands in texts only: no text can end the element that the JSON is in.
-  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = json_text(json);
   std::string safe;
   safe.reserve(text.size());
   for (const char c : text) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/api/files.hpp"
+#include "graph/api/json_text.hpp"
 #include "graph/report/csv.hpp"
 #include "graph/run/run_folder.hpp"
 
@@ -40,7 +41,7 @@ Cell cell_of(const Fact& fact) {
 }
 
 void read_axes(const fs::path& file, SweepRecord& record) {
-  const auto json = ordered_json::parse(std::ifstream(file, std::ios::binary), nullptr, false);
+  const auto json = read_json_file(file);
   if (!json.is_object() || !json.contains("axes"))
     throw Error(file.string() + " does not say what was varied",
                 "it was written by an older version: run `atrium sweep run` again with the same --out");

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
 #include "graph/api/plugin.hpp"
 #include "graph/pipeline/png_stamp.hpp"
 #include "graph/run/record_json.hpp"
@@ -78,7 +79,7 @@ Json pipeline_outputs(const Pipeline& pipeline, const RunResult& result) {
 }
 
 // Texts of nodes may hold bytes that are not UTF-8 (file names): they are replaced, never thrown at.
-std::string text(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string text(const Json& json) { return json_text(json, 1) + "\n"; }
 
 }  // namespace
 

@@ -9,9 +9,9 @@ namespace atrium {
 namespace {
 
 // Out-edges in a set: two edges between the same nodes are one wait.
-using Graph = boost::adjacency_list<boost::setS, boost::vecS, boost::bidirectionalS>;
+using NodeGraph = boost::adjacency_list<boost::setS, boost::vecS, boost::bidirectionalS>;
 
-std::vector<std::size_t> ends_first(const Graph& graph) {
+std::vector<std::size_t> ends_first(const NodeGraph& graph) {
   std::vector<std::size_t> order;
   order.reserve(boost::num_vertices(graph));
   try {
@@ -29,7 +29,7 @@ Plan make_plan(const Pipeline& pipeline) {
   Plan plan{std::vector<std::vector<std::size_t>>(size), std::vector<std::size_t>(size),
             std::vector<std::size_t>(size, 1), std::vector<std::vector<std::size_t>>(size)};
   for (std::size_t n = 0; n < size; ++n) plan.readers[n].resize(pipeline.nodes[n].type->outputs.size());
-  Graph graph(size);
+  NodeGraph graph(size);
   for (std::size_t n = 0; n < size; ++n) {
     for (const auto& port : pipeline.nodes[n].inputs) {
       for (const Edge& edge : port) {

@@ -19,7 +19,7 @@ CacheUse::Result read_cache_result(std::string_view text) {
   return CacheUse::Result::off;
 }
 
-Json cache_json(const CacheUse& use) {
+Json cache_use_json(const CacheUse& use) {
   return {{"result", name_of(use.result)},
           {"key", use.key},
           {"why", use.why},
@@ -98,7 +98,7 @@ Json record_json(const NodeRecord& record) {
             {"facts", Json::array()},
             {"warnings", record.warnings},
             {"files", Json::array()},
-            {"cache", cache_json(record.cache)}};
+            {"cache", cache_use_json(record.cache)}};
   for (const auto& output : record.outputs)
     json["outputs"].push_back({output.port, output.type, output.bytes, output.hash});
   for (const auto& facts : record.facts) {

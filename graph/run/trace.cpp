@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
+
 namespace atrium {
 namespace {
 
@@ -40,7 +42,7 @@ std::string trace_json(const RunResult& result) {
   for (const auto& node : result.nodes)
     if (node.status == NodeStatus::ok || node.status == NodeStatus::failed) add_node(events, node);
   const Json trace{{"displayTimeUnit", "ms"}, {"traceEvents", std::move(events)}};
-  return trace.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(trace) + "\n";
 }
 
 }  // namespace atrium

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
 #include "graph/run/record_json.hpp"
 
 namespace atrium {
@@ -70,7 +71,7 @@ void EventSink::message(const std::string& node, std::string_view text, bool war
 }
 
 void EventSink::write(const Json& event) {
-  const std::string text = event.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text = json_text(event) + "\n";
   const std::lock_guard lock(mutex_);
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t size = ::write(file_, text.data() + done, text.size() - done);

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
 #include "graph/run/run_folder.hpp"
 #include "graph/sweep/isolated_run.hpp"
 #include "graph/sweep/recorder.hpp"
@@ -85,7 +86,7 @@ class Gatherer {
     const fs::path file = work_ / (name + ".events");
     std::ifstream stream(file);
     for (std::string line; std::getline(stream, line);) {
-      const Json event = Json::parse(line, nullptr, false);
+      const Json event = read_json(line);
       if (!event.is_object()) continue;  // cut off
       const std::string kind = event.value("e", "");
       const std::string process = event.value("p", "");

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
 #include "graph/cache/blob.hpp"
 #include "graph/cache/node_key.hpp"
 #include "graph/run/manifest.hpp"
@@ -53,7 +54,7 @@ VariantStatus read_status(const std::string& text) {
   return VariantStatus::cancelled;
 }
 
-VariantResult read_result(const Json& json) {
+VariantResult read_result_json(const Json& json) {
   VariantResult result;
   result.status = read_status(json.at("status").get<std::string>());
   result.message = json.value("message", "");
@@ -77,11 +78,6 @@ VariantResult read_result(const Json& json) {
   return result;
 }
 
-Json read_json(const fs::path& file) {
-  std::ifstream stream(file);
-  return Json::parse(stream, nullptr, false);
-}
-
 }  // namespace
 
 std::string_view name_of(VariantStatus status) {
@@ -97,7 +93,7 @@ std::string_view name_of(VariantStatus status) {
 }
 
 std::string state_of_inputs(const SweepPlan& plan, const SweepVariant& variant) {
-  return inputs_of(plan, variant).dump();
+  return json_text(inputs_of(plan, variant));
 }
 
 std::string result_json(const fs::path& folder, const VariantName& name, const SweepPlan& plan,
@@ -112,7 +108,7 @@ std::string result_json(const fs::path& folder, const VariantName& name, const S
   json["choices"] = Json::object();
   for (const auto& [axis, choice] : name.choices) json["choices"][axis] = choice;
   json["inputs"] = inputs_of(plan, variant);
-  if (json["inputs"].dump() != inputs) json["inputs"] = "changed while the variant was run";
+  if (json_text(json["inputs"]) != inputs) json["inputs"] = "changed while the variant was run";
   json["outputs"] = Json::array();
   for (const auto& output : result.outputs) {
     Json facts = Json::array();
@@ -125,14 +121,14 @@ std::string result_json(const fs::path& folder, const VariantName& name, const S
         {{"path", artefact.path}, {"bytes", artefact.bytes}, {"hash", hash_if_readable(folder / artefact.path)}});
   json["nodes"] = Json::array();
   for (const auto& node : result.nodes) json["nodes"].push_back(node_json(node));
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 1) + "\n";
 }
 
 std::optional<VariantResult> read_result(const fs::path& folder, const std::string& build) {
-  const Json json = read_json(folder / "result.json");
+  const Json json = read_json_file(folder / "result.json");
   if (!json.is_object()) return std::nullopt;
   try {
-    return json.at("build") == build ? std::optional(read_result(json)) : std::nullopt;
+    return json.at("build") == build ? std::optional(read_result_json(json)) : std::nullopt;
   } catch (const Json::exception&) {
     return std::nullopt;
   }
@@ -140,12 +136,12 @@ std::optional<VariantResult> read_result(const fs::path& folder, const std::stri
 
 std::optional<VariantResult> reusable_result(const fs::path& folder, const SweepPlan& plan, const SweepVariant& variant,
                                              const std::string& build) {
-  const Json json = read_json(folder / "result.json");
+  const Json json = read_json_file(folder / "result.json");
   if (!json.is_object()) return std::nullopt;
   try {
     if (json.at("build") != build || json.at("status") != "ok" || json.at("inputs") != inputs_of(plan, variant))
       return std::nullopt;
-    VariantResult result = read_result(json);
+    VariantResult result = read_result_json(json);
     for (const auto& artefact : json.at("artefacts"))
       if (hash_if_readable(folder / artefact.at("path").get<std::string>()) != artefact.at("hash").get<std::string>())
         return std::nullopt;

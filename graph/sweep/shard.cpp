@@ -11,6 +11,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "graph/api/json_text.hpp"
 #include "graph/sweep/isolated_run.hpp"
 #include "graph/sweep/merge.hpp"
 #include "graph/sweep/recorder.hpp"
@@ -50,7 +51,7 @@ Journal::~Journal() { ::close(file_); }
 void Journal::write(const std::string& process, const Json& event) {
   Json line{{"p", process}};
   line.update(event);
-  const std::string text = line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text = json_text(line) + "\n";
   // At once: a line that is cut off because the machine died is left out by who reads it.
   if (::write(file_, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
     throw Error("cannot write the journal of a shard: " + std::generic_category().message(errno));

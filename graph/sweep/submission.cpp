@@ -11,6 +11,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
 #include "graph/run/run_folder.hpp"
 #include "graph/sweep/isolated_run.hpp"
 #include "graph/sweep/merge.hpp"
@@ -27,7 +28,7 @@ constexpr std::size_t usual_shards = 100;
 constexpr std::string_view record_name = "submission.json";
 
 /// Quoted for a shell, where it needs that.
-std::string quoted(const std::string& text) {
+std::string for_shell(const std::string& text) {
   constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
   if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
   std::string result = "'";
@@ -35,9 +36,9 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-std::string quoted(const std::vector<std::string>& words) {
+std::string for_shell(const std::vector<std::string>& words) {
   std::string result;
-  for (const auto& word : words) result += " " + quoted(word);
+  for (const auto& word : words) result += " " + for_shell(word);
   return result;
 }
 
@@ -74,9 +75,9 @@ struct Call {
 
 std::string work_command(const Call& call, const std::string& task, const std::string& threads) {
   const char* plugins = std::getenv("ATRIUM_PLUGIN_PATH");  // NOLINT(concurrency-mt-unsafe)
-  return fmt::format("cd {} && {}exec {} sweep work {} {} -j {}", quoted(call.submission.folder.string()),
-                     plugins == nullptr ? "" : fmt::format("export ATRIUM_PLUGIN_PATH={} && ", quoted(plugins)),
-                     quoted(call.options.program), quoted(call.options.out.string()), task, threads);
+  return fmt::format("cd {} && {}exec {} sweep work {} {} -j {}", for_shell(call.submission.folder.string()),
+                     plugins == nullptr ? "" : fmt::format("export ATRIUM_PLUGIN_PATH={} && ", for_shell(plugins)),
+                     for_shell(call.options.program), for_shell(call.options.out.string()), task, threads);
 }
 
 SubmitScripts slurm(const Call& call) {
@@ -90,11 +91,11 @@ SubmitScripts slurm(const Call& call) {
   const std::string threads = options.threads > 0 ? fmt::format(" --cpus-per-task={}", options.threads) : "";
   const auto array = [&](std::string_view kind, std::size_t tasks) {
     return fmt::format("sbatch --parsable --job-name={} --array=1-{} --output={}{}",
-                       quoted(fmt::format("{}-{}", submission.sweep.stem().string(), kind)), tasks,
-                       quoted((work / fmt::format("{}-%a.log", kind)).string()), threads);
+                       for_shell(fmt::format("{}-{}", submission.sweep.stem().string(), kind)), tasks,
+                       for_shell((work / fmt::format("{}-%a.log", kind)).string()), threads);
   };
-  const std::string job = " " + quoted(scripts.job_file.string()) + " ";
-  const std::string more = quoted(options.engine_options);
+  const std::string job = " " + for_shell(scripts.job_file.string()) + " ";
+  const std::string more = for_shell(options.engine_options);
   scripts.submit = "#!/bin/sh\nset -e\n";
   std::string after;
   if (submission.shared > 0) {
@@ -114,10 +115,10 @@ SubmitScripts parallel(const Call& call) {
     const std::string command = fmt::format("{} >>{} 2>&1",
                                             work_command(call, fmt::format("{}/{}-{{}}", submission.id, kind),
                                                          std::to_string(std::max(options.threads, 1))),
-                                            quoted((work / fmt::format("{}-{{}}.log", kind)).string()));
+                                            for_shell((work / fmt::format("{}-{{}}.log", kind)).string()));
     return fmt::format("seq {} | parallel --joblog {}{} {}\n", tasks,
-                       quoted((work / fmt::format("{}.joblog", kind)).string()), quoted(options.engine_options),
-                       quoted(command));
+                       for_shell((work / fmt::format("{}.joblog", kind)).string()), for_shell(options.engine_options),
+                       for_shell(command));
   };
   // The number of jobs that failed is no failure of the submission: `gather` says what became of the variants.
   scripts.submit = "#!/bin/sh\n";
@@ -160,13 +161,12 @@ void write_submission(const fs::path& out, const Submission& s) {
       {"build", s.build},   {"engine", s.engine},        {"variants", s.variants}, {"arguments", s.arguments},
       {"cache", s.cache},   {"memory", s.memory},        {"timeout", s.timeout},   {"time", s.time},
       {"shared", s.shared}, {"shards", s.shards}};
-  write_file(out / farm_folder / record_name, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(out / farm_folder / record_name, json_text(json, 1) + "\n");
 }
 
 Submission read_submission(const fs::path& out) {
   const fs::path file = out / farm_folder / record_name;
-  std::ifstream stream(file);
-  const Json json = Json::parse(stream, nullptr, false);
+  const Json json = read_json_file(file);
   try {
     return {json.at("id").get<std::string>(),
             json.at("sweep").get<std::string>(),

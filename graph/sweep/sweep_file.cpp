@@ -12,7 +12,7 @@ namespace atrium {
 namespace {
 
 /// A value as -s takes it.
-std::string quoted(const std::string& text) {
+std::string in_double_quotes(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
@@ -24,12 +24,12 @@ std::string quoted(const std::string& text) {
 std::string item_text(const YamlNode& node, bool in_list) {
   const bool plain = !node.quoted && !node.text.empty() && node.text.find_first_of("[\"'") != 0 &&
                      (!in_list || node.text.find_first_of(",]{}#:") == std::string::npos);
-  return plain ? node.text : quoted(node.text);
+  return plain ? node.text : in_double_quotes(node.text);
 }
 
-class Reader {
+class SweepReader {
  public:
-  Reader(SweepFile& sweep, Findings& findings) : sweep_(sweep), findings_(findings) {}
+  SweepReader(SweepFile& sweep, Findings& findings) : sweep_(sweep), findings_(findings) {}
 
   void read(const YamlNode& root) {
     if (const auto* nodes = root.find("nodes"); nodes != nullptr && root.find("sweep") == nullptr) {
@@ -353,7 +353,7 @@ std::unique_ptr<SweepFile> read_sweep(const std::filesystem::path& path, const s
     findings.error({&sweep->source, problem.place}, problem.message, problem.help);
   if (!tree.root) return sweep;
   if (tree.root->is_mapping())
-    Reader(*sweep, findings).read(*tree.root);
+    SweepReader(*sweep, findings).read(*tree.root);
   else
     findings.error({&sweep->source, tree.root->place}, "a sweep file is a mapping of keys to values",
                    "it begins with `atrium: 1`");

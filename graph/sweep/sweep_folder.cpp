@@ -8,6 +8,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_text.hpp"
 #include "graph/run/run_folder.hpp"
 
 namespace atrium {
@@ -39,7 +40,7 @@ std::string sweep_json(const SweepFile& sweep) {
   }
   json["pictures"] = Json::array();
   for (const auto& sheet : sweep.sheets) json["pictures"].push_back({{"file", sheet.file}, {"picture", sheet.picture}});
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 1) + "\n";
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "graph/api/json_text.hpp"
 #include "graph/cache/costs.hpp"
 #include "graph/run/clocks.hpp"
 #include "graph/run/run_folder.hpp"
@@ -71,8 +72,7 @@ class Stamps {
 
 VariantNote read_note(const fs::path& folder) {
   const fs::path file = folder / "variant.json";
-  std::ifstream stream(file);
-  const Json json = Json::parse(stream, nullptr, false);
+  const Json json = read_json_file(file);
   try {
     VariantNote note{{json.at("variant").get<std::string>(), {}}, {}};
     for (const auto& [axis, choice] : json.at("choices").items())
@@ -124,7 +124,7 @@ void write_note(const fs::path& folder, const VariantNote& note) {
   Json json{{"variant", note.name.label}, {"choices", Json::object()}, {"pictures_show", Json::object()}};
   for (const auto& [axis, choice] : note.name.choices) json["choices"][axis] = choice;
   for (const auto& [node, id] : note.stamps) json["pictures_show"][node] = id;
-  write_file(folder / "variant.json", json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n", false);
+  write_file(folder / "variant.json", json_text(json, 1) + "\n", false);
 }
 
 void run_worker(const WorkerTask& task, const WorkerOptions& options, Registry& registry, EventSink& events) {

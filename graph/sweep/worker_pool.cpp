@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "graph/api/json_text.hpp"
 #include "graph/api/suggest.hpp"
 #include "graph/cache/upkeep.hpp"
 #include "graph/run/clocks.hpp"
@@ -136,7 +137,7 @@ void WorkerPool::wait() const {
 
 void WorkerPool::read(Worker& worker) {
   for (const auto& line : worker.process.read()) {
-    const Json event = Json::parse(line, nullptr, false);
+    const Json event = read_json(line);
     if (!event.is_object()) continue;
     const std::string kind = event.value("e", "");
     worker.whole = worker.whole || kind == "end";

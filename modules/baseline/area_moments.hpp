@@ -1,8 +1,8 @@
 #pragma once
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <array>
 
+#include "modules/geometry/symmetric_eigen.hpp"
 #include "modules/types/plane_primitives.hpp"
 
 namespace atrium::baseline {
@@ -39,9 +39,8 @@ struct AreaMoments {
   /// The plane of least squares, on the side of the area vectors.
   Plane plane() const {
     const Eigen::Vector3d mean = sum / area;
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(products / area - mean * mean.transpose());
     Plane result;
-    result.normal = solver.eigenvectors().col(0);
+    result.normal = symmetric_eigen(products / area - mean * mean.transpose()).vectors.col(0);
     if (result.normal.dot(normals) < 0) result.normal = -result.normal;
     result.offset = -result.normal.dot(mean);
     return result;

@@ -12,7 +12,6 @@
 namespace atrium::baseline {
 namespace {
 
-constexpr float level = 0.8F;          // |nz| of floors and ceilings, at least
 constexpr float sideways = 0.3F;       // |nz| of walls, at most
 constexpr double ceiling_from = 0.85;  // of the height: lower level surfaces are no ceiling
 constexpr double lintel_from = 0.84;   // of the height: above doors, windows and wardrobes
@@ -24,9 +23,6 @@ constexpr int opening = 3;     // pixels
 constexpr int spur_width = 3;  // pixels, half of it
 constexpr double spur_length = 0.6;
 
-bool is_level(const Cloud& cloud, std::size_t i) {
-  return !cloud.has_normals() || std::abs(cloud.normals[i].z()) >= level;
-}
 bool is_sideways(const Cloud& cloud, std::size_t i) {
   return !cloud.has_normals() || std::abs(cloud.normals[i].z()) <= sideways;
 }

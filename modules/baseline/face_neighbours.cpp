@@ -8,9 +8,9 @@
 namespace atrium::baseline {
 namespace {
 
-struct Side {
+struct TriangleSide {
   std::uint32_t low, high, place;  // place: 3 · triangle + edge
-  friend bool operator<(const Side& a, const Side& b) {
+  friend bool operator<(const TriangleSide& a, const TriangleSide& b) {
     return std::tie(a.low, a.high, a.place) < std::tie(b.low, b.high, b.place);
   }
 };
@@ -18,7 +18,7 @@ struct Side {
 }  // namespace
 
 FaceNeighbours face_neighbours(const Mesh& mesh, const Context& context) {
-  std::vector<Side> sides(3 * mesh.triangles.size());
+  std::vector<TriangleSide> sides(3 * mesh.triangles.size());
   context.parallel_for(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t)
       for (std::size_t k = 0; k < 3; ++k) {

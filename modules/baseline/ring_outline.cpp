@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-struct Side {
+struct OutlineSide {
   Vector2d from, to;       // of the simplified ring
   Vector2d along, inward;  // unit length
   double offset = 0;       // inward · x
@@ -47,7 +47,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-void turn_to(Side& side, double direction, double snap_angle) {
+void turn_to(OutlineSide& side, double direction, double snap_angle) {
   constexpr double quarter = std::numbers::pi / 2;
   const double angle = std::atan2(side.along.y(), side.along.x());
   const double snapped = direction + quarter * std::round((angle - direction) / quarter);
@@ -57,7 +57,7 @@ void turn_to(Side& side, double direction, double snap_angle) {
 }
 
 // Onto the wall: the median of the points before the side's middle part that look into the room.
-void move_onto(Side& side, const WallPoints& walls, double reach) {
+void move_onto(OutlineSide& side, const WallPoints& walls, double reach) {
   constexpr std::size_t least = 20;
   constexpr double cosine = 0.8;
   constexpr double margin = 0.05;
@@ -72,13 +72,13 @@ void move_onto(Side& side, const WallPoints& walls, double reach) {
   if (offsets.size() >= least) side.offset = median(std::move(offsets));
 }
 
-std::vector<Side> sides_of(const PlanRing& ring, double direction, const WallPoints& walls,
-                           const OutlineLimits& limits) {
+std::vector<OutlineSide> sides_of(const PlanRing& ring, double direction, const WallPoints& walls,
+                                  const OutlineLimits& limits) {
   const auto corners = simplified(ring, limits.tolerance);
-  std::vector<Side> sides;
+  std::vector<OutlineSide> sides;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const std::size_t first = corners[k], last = corners[(k + 1) % corners.size()];
-    Side side;
+    OutlineSide side;
     side.from = ring[first];
     side.to = ring[last];
     side.along = (side.to - side.from).normalized();
@@ -94,7 +94,7 @@ std::vector<Side> sides_of(const PlanRing& ring, double direction, const WallPoi
 }
 
 // Neighbouring sides on nearly the same line become the longer one.
-void join_sides(std::vector<Side>& sides, double tolerance) {
+void join_sides(std::vector<OutlineSide>& sides, double tolerance) {
   for (std::size_t i = 0; i < sides.size() && sides.size() > 3;) {
     const std::size_t next = (i + 1) % sides.size();
     const bool same =
@@ -103,7 +103,7 @@ void join_sides(std::vector<Side>& sides, double tolerance) {
       ++i;
       continue;
     }
-    Side joined = sides[i].length() >= sides[next].length() ? sides[i] : sides[next];
+    OutlineSide joined = sides[i].length() >= sides[next].length() ? sides[i] : sides[next];
     joined.from = sides[i].from;
     joined.to = sides[next].to;
     sides[i] = joined;
@@ -113,11 +113,11 @@ void join_sides(std::vector<Side>& sides, double tolerance) {
 }
 
 // Short sides across a corner, as the pixels of one leave them, go: their neighbours meet.
-void drop_chamfers(std::vector<Side>& sides, double length) {
+void drop_chamfers(std::vector<OutlineSide>& sides, double length) {
   constexpr double parallel = 0.95, square = 0.5;
   for (std::size_t i = 0; i < sides.size() && sides.size() > 3;) {
-    const Side& before = sides[(i + sides.size() - 1) % sides.size()];
-    const Side& after = sides[(i + 1) % sides.size()];
+    const OutlineSide& before = sides[(i + sides.size() - 1) % sides.size()];
+    const OutlineSide& after = sides[(i + 1) % sides.size()];
     const bool chamfer = sides[i].length() < length && std::abs(before.along.dot(after.along)) < square &&
                          std::abs(sides[i].along.dot(before.along)) < parallel &&
                          std::abs(sides[i].along.dot(after.along)) < parallel;
@@ -128,17 +128,17 @@ void drop_chamfers(std::vector<Side>& sides, double length) {
   }
 }
 
-PlanRing cut(const std::vector<Side>& sides) {
+PlanRing cut(const std::vector<OutlineSide>& sides) {
   PlanRing ring;
   for (std::size_t k = 0; k < sides.size(); ++k) {
-    const Side &a = sides[k], &b = sides[(k + 1) % sides.size()];
+    const OutlineSide &a = sides[k], &b = sides[(k + 1) % sides.size()];
     const double sine = a.inward.x() * b.inward.y() - a.inward.y() * b.inward.x();
     if (std::abs(sine) > 0.25) {
       ring.emplace_back((a.offset * b.inward.y() - b.offset * a.inward.y()) / sine,
                         (b.offset * a.inward.x() - a.offset * b.inward.x()) / sine);
       continue;
     }
-    for (const Side* side : {&a, &b})  // a step between parallel sides
+    for (const OutlineSide* side : {&a, &b})  // a step between parallel sides
       ring.emplace_back(a.to + side->inward * (side->offset - side->inward.dot(a.to)));
   }
   return ring;
@@ -204,7 +204,7 @@ PlanRing straight_outline(const PlanRing& ring, double direction, const WallPoin
                           const OutlineLimits& limits) {
   OutlineLimits coarser = limits;
   for (int attempt = 0; attempt < 3; ++attempt) {
-    std::vector<Side> sides = sides_of(ring, direction, walls, coarser);
+    std::vector<OutlineSide> sides = sides_of(ring, direction, walls, coarser);
     join_sides(sides, coarser.tolerance);
     drop_chamfers(sides, 3 * coarser.tolerance);
     PlanRing result = cut(sides);

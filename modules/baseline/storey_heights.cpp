@@ -17,10 +17,6 @@ constexpr double thickest_slab = 1, lowest_storey = 1.8;
 constexpr double least_share = 0.2;
 constexpr double most_bins = 1e6;
 
-bool is_level(const Cloud& cloud, std::size_t i) {
-  return !cloud.has_normals() || std::abs(cloud.normals[i].z()) >= level;
-}
-
 double median_near(std::vector<double> heights, double height) {
   std::erase_if(heights, [&](double z) { return std::abs(z - height) > near_height; });
   const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
@@ -41,6 +37,10 @@ std::vector<double> peaks(const std::vector<double>& counts, double low) {
 }
 
 }  // namespace
+
+bool is_level(const Cloud& cloud, std::size_t i) {
+  return !cloud.has_normals() || std::abs(cloud.normals[i].z()) >= level;
+}
 
 StoreyHeights storey_heights(const Cloud& cloud, double percentile) {
   std::vector<double> heights;

@@ -5,6 +5,9 @@
 
 namespace atrium::baseline {
 
+/// Whether the point's normal is that of a floor or ceiling (|nz| of 0.8 at least); true for any point without normals.
+bool is_level(const Cloud& cloud, std::size_t i);
+
 /// Heights of floor and ceiling, metres above the cloud's origin.
 struct StoreyHeights {
   double floor = 0, ceiling = 0;

@@ -109,12 +109,12 @@ Clusters search(const Mesh& mesh, const Eigen::AlignedBox3d& box, double cell, s
   return best;
 }
 
-struct Quadric {
+struct VertexQuadric {
   Matrix3d a = Matrix3d::Zero();
   Vector3d b = Vector3d::Zero();
 };
 
-Vector3d least_error(const Quadric& quadric, const Vector3d& mean) {
+Vector3d least_error(const VertexQuadric& quadric, const Vector3d& mean) {
   Eigen::JacobiSVD<Matrix3d> svd(quadric.a, Eigen::ComputeFullU | Eigen::ComputeFullV);
   svd.setThreshold(1e-3);
   return mean + svd.solve(Vector3d(quadric.b - quadric.a * mean));
@@ -122,7 +122,7 @@ Vector3d least_error(const Quadric& quadric, const Vector3d& mean) {
 
 void move_to_least_error(const Mesh& mesh, const Clusters& clusters, const Vector3d& low,
                          std::vector<Vector3d>& places) {
-  std::vector<Quadric> quadrics(places.size());
+  std::vector<VertexQuadric> quadrics(places.size());
   for (const auto& t : mesh.triangles) {
     const Vector3d first = mesh.vertices[t[0]] - low;
     const Vector3d normal =

@@ -34,9 +34,9 @@ Adjacency::Out Adjacency::run(const In& in, const Params& params, Context& conte
       },
       16);
   Out out;
-  out.adjacency.graph = atrium::Adjacency::Graph(meshes.size());
+  out.adjacency = atrium::Adjacency(meshes.size());
   for (const auto& edges : found)
-    for (const auto& edge : edges) boost::add_edge(edge.a, edge.b, AdjacencyEdge{edge.separation}, out.adjacency.graph);
+    for (const auto& edge : edges) out.adjacency.connect(edge.a, edge.b, edge.separation);
   return out;
 }
 

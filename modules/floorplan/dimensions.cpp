@@ -11,10 +11,10 @@
 namespace atrium::floorplan {
 namespace {
 
-constexpr double same_stop = 0.025;     // metres: wall faces nearer than this get one stop
-constexpr double parallel = 0.05;       // sin 3°
-constexpr double behind_facade = 0.50;  // metres: walls that begin further behind another one are not seen
-constexpr double shortest = 0.30;       // metres: shorter pieces of wall get no stop
+constexpr double same_stop = 0.025;      // metres: wall faces nearer than this get one stop
+constexpr double axis_tolerance = 0.05;  // sin 3°
+constexpr double behind_facade = 0.50;   // metres: walls that begin further behind another one are not seen
+constexpr double shortest = 0.30;        // metres: shorter pieces of wall get no stop
 
 // Millimetres of paper.
 constexpr double digits = 2.0, first_line = 9, line_step = 8, row = 2.9, above = 1.7, below = 2.3;
@@ -40,7 +40,7 @@ Eigen::Vector2d seen_from(Side side, const Eigen::Vector2d& p) {
 
 void add_face(View& view, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d d = b - a;
-  if (std::abs(d.x()) <= parallel * d.norm())
+  if (std::abs(d.x()) <= axis_tolerance * d.norm())
     view.across.push_back({a.y() < b.y() ? a.x() : b.x(), std::min(a.y(), b.y()), std::max(a.y(), b.y())});
   else if (std::abs(d.x()) > std::abs(d.y()))
     view.along.push_back({0.5 * (a.y() + b.y()), std::min(a.x(), b.x()), std::max(a.x(), b.x())});
@@ -130,7 +130,7 @@ std::vector<double> facade_openings(Side side, const PlanStorey& storey, const s
     Eigen::Vector2d a = seen_from(side, opening.from), b = seen_from(side, opening.to);
     if (opening.room_a < 0) std::swap(a, b);  // the room is now on the left in the plan
     const bool mirrored = side == Side::top || side == Side::left;
-    if (std::abs(b.y() - a.y()) > parallel * (b - a).norm() || (b.x() > a.x()) == mirrored) continue;
+    if (std::abs(b.y() - a.y()) > axis_tolerance * (b - a).norm() || (b.x() > a.x()) == mirrored) continue;
     const double low = std::min(a.x(), b.x()), high = std::max(a.x(), b.x());
     const bool hidden = std::any_of(view.along.begin(), view.along.end(), [&](const Edge& wall) {
       return wall.at < a.y() - behind_facade && wall.near < high - same_stop && wall.far > low + same_stop;

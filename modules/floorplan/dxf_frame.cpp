@@ -40,7 +40,7 @@ enum Fixed : DxfHandle {
   first_layer,
 };
 
-constexpr int metres = 6, metric = 1, decimal = 2, plot_by_colour = 1;
+constexpr int metres = 6, metric = 1, decimal_units = 2, plot_by_colour = 1;
 const Eigen::Vector2d zero = Eigen::Vector2d::Zero(), one = Eigen::Vector2d::Ones(), a3(420, 297);
 
 using Integers = std::vector<std::pair<int, int>>;
@@ -75,7 +75,7 @@ void write_header(DxfGroups& out, const DxfFrame& frame) {
   variable("$CELTYPE", 6, "ByLayer");
   variable("$TEXTSTYLE", 7, "Standard");
   variable("$DIMSTYLE", 2, "Standard");
-  variable("$LUNITS", 70, decimal);
+  variable("$LUNITS", 70, decimal_units);
   variable("$LUPREC", 70, 3);
   variable("$AUNITS", 70, 0);
   variable("$INSUNITS", 70, metres);

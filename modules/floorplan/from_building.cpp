@@ -12,7 +12,7 @@
 namespace atrium::floorplan {
 namespace {
 
-constexpr double joint = 0.004;  // metres: gaps between bodies of walls that are closed
+constexpr double joint_reach = 0.004;  // metres: gaps between bodies of walls that are closed
 
 void check_input(const Building& building, const FromBuilding::Params& params) {
   if (params.min_thickness > params.max_thickness)
@@ -97,7 +97,7 @@ PlanStorey storey_of(const Building& building, std::int32_t index, const std::ve
     if (wall.thickness > 0 && !wall.inferred) outlines.push_back(wall.outline);
   Region inside;
   for (const auto& room : storey.rooms) inside.push_back(room.polygon);
-  storey.bodies = minus(closed(united(outlines), joint), joined(inside, {}));
+  storey.bodies = minus(closed(united(outlines), joint_reach), joined(inside, {}));
   for (const auto& opening : storey.openings)
     if (opening.kind == "slab") (opening.sill > 0.5 * storey.height ? overhead : in_floor).push_back(opening.outline);
   storey.floors = minus(seen_from_above(building, index, SurfaceClass::floor), united(in_floor));

@@ -1,6 +1,6 @@
 #include "modules/geometry/moments.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "modules/geometry/symmetric_eigen.hpp"
 
 namespace atrium {
 
@@ -8,10 +8,9 @@ PlaneFit fit_plane(const Moments& moments) {
   PlaneFit fit;
   if (moments.count == 0) return fit;
   fit.mean = moments.mean();
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.compute(moments.covariance());
-  fit.variances = solver.eigenvalues().cwiseMax(0.0);
-  fit.axes = solver.eigenvectors();
+  const SymmetricEigen principal = symmetric_eigen(moments.covariance());
+  fit.variances = principal.values.cwiseMax(0.0);
+  fit.axes = principal.vectors;
   Eigen::Vector3d normal = fit.axes.col(0).normalized();
   Eigen::Index largest = 0;
   normal.cwiseAbs().maxCoeff(&largest);

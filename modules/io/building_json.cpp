@@ -13,17 +13,11 @@ namespace atrium::io {
 namespace {
 
 using Json = JsonField::Json;
-using Ring = std::vector<std::uint32_t>;
+using CornerIndices = std::vector<std::uint32_t>;
 
 constexpr std::int32_t any = std::numeric_limits<std::int32_t>::max();
 
-Json json_of(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
-Json json_of(const std::vector<Eigen::Vector3d>& ring) {
-  Json list = Json::array();
-  for (const auto& p : ring) list.push_back(json_of(p));
-  return list;
-}
-Json json_of(const std::vector<std::vector<Eigen::Vector3d>>& rings) {
+Json json_of_rings(const std::vector<std::vector<Eigen::Vector3d>>& rings) {
   Json list = Json::array();
   for (const auto& ring : rings) list.push_back(json_of(ring));
   return list;
@@ -37,7 +31,7 @@ Json room_to_json(const BuildingRoom& room) {
             {"volume", room.volume},
             {"faces", room.faces},
             {"outline", json_of(room.outline)}};
-  if (!room.holes.empty()) json["holes"] = json_of(room.holes);
+  if (!room.holes.empty()) json["holes"] = json_of_rings(room.holes);
   if (room.confidence >= 0) {
     json["confidence"] = room.confidence;
     json["doubts"] = room.doubts;
@@ -46,7 +40,7 @@ Json room_to_json(const BuildingRoom& room) {
 }
 
 double area_of(const Building& building, const BuildingFace& face) {
-  const auto places = [&](const Ring& ring) {
+  const auto places = [&](const CornerIndices& ring) {
     std::vector<Eigen::Vector3d> result;
     for (const auto v : ring) result.push_back(building.vertices[v]);
     return result;
@@ -103,17 +97,11 @@ std::vector<Eigen::Vector3d> places_of(const JsonField& field) {
   for (const auto& item : field.items()) result.push_back(item.place());
   return result;
 }
-Ring corners_of(const JsonField& field, std::int32_t last_vertex) {
-  Ring ring;
+CornerIndices corners_of(const JsonField& field, std::int32_t last_vertex) {
+  CornerIndices ring;
   for (const auto& item : field.items()) ring.push_back(static_cast<std::uint32_t>(item.whole(0, last_vertex)));
   if (ring.size() < 3) field.fail("has fewer than three corners");
   return ring;
-}
-SurfaceClass class_of(const JsonField& field) {
-  const auto name = field.text();
-  for (const auto c : {SurfaceClass::wall, SurfaceClass::floor, SurfaceClass::ceiling, SurfaceClass::object})
-    if (name == name_of(c)) return c;
-  field.fail("is '" + name + "'", "classes are wall, floor, ceiling, object");
 }
 Eigen::Vector3d direction_of(const JsonField& field) {
   Eigen::Vector3d direction = field.place();

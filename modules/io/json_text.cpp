@@ -24,6 +24,20 @@ std::string json_text(const Json& root, std::initializer_list<std::string_view> 
   return text + "\n}\n";
 }
 
+Json json_of(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+Json json_of(const std::vector<Eigen::Vector3d>& ring) {
+  Json list = Json::array();
+  for (const auto& p : ring) list.push_back(json_of(p));
+  return list;
+}
+
+SurfaceClass class_of(const JsonField& field) {
+  const auto name = field.text();
+  for (const auto c : {SurfaceClass::wall, SurfaceClass::floor, SurfaceClass::ceiling, SurfaceClass::object})
+    if (name == name_of(c)) return c;
+  field.fail("is '" + name + "'", "classes are wall, floor, ceiling, object");
+}
+
 Json parsed_json(const std::string& path) {
   const MappedFile file(path);
   if (file.size() == 0) throw Error(path + ": the file is empty");

@@ -11,7 +11,7 @@
 namespace atrium::io {
 namespace {
 
-SurfaceClass class_of(const Mesh& mesh, std::size_t t) {
+SurfaceClass class_of_triangle(const Mesh& mesh, std::size_t t) {
   return mesh.classes.empty() ? SurfaceClass::object : mesh.classes[t];
 }
 std::int32_t primitive_of(const Mesh& mesh, std::size_t t) {
@@ -23,7 +23,8 @@ std::vector<std::size_t> grouped(const Mesh& mesh) {
   std::vector<std::size_t> order(mesh.triangles.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair(class_of(mesh, a), primitive_of(mesh, a)) < std::pair(class_of(mesh, b), primitive_of(mesh, b));
+    return std::pair(class_of_triangle(mesh, a), primitive_of(mesh, a)) <
+           std::pair(class_of_triangle(mesh, b), primitive_of(mesh, b));
   });
   return order;
 }
@@ -41,9 +42,10 @@ void write_faces(const Mesh& mesh, const FaceImages& images, ByteBuffer& out) {
   std::size_t image = FaceImages::none;
   std::uint64_t places = 0;
   for (const std::size_t t : grouped(mesh)) {
-    if (!mesh.classes.empty() && (first || class_of(mesh, t) != surface || primitive_of(mesh, t) != primitive)) {
+    if (!mesh.classes.empty() &&
+        (first || class_of_triangle(mesh, t) != surface || primitive_of(mesh, t) != primitive)) {
       first = false;
-      surface = class_of(mesh, t);
+      surface = class_of_triangle(mesh, t);
       primitive = primitive_of(mesh, t);
       image = images.find(surface, primitive);
       const std::string group = group_name(surface, primitive);

@@ -8,9 +8,9 @@
 namespace atrium::io {
 namespace {
 
-class Parser {
+class PcdHeaderParser {
  public:
-  explicit Parser(const MappedFile& file)
+  explicit PcdHeaderParser(const MappedFile& file)
       : lines_(file, "\n", "the header ends without a line 'DATA' (truncated, or not a PCD file?)") {}
 
   PcdHeader parse() {
@@ -137,6 +137,6 @@ class Parser {
 
 }  // namespace
 
-PcdHeader read_pcd_header(const MappedFile& file) { return Parser(file).parse(); }
+PcdHeader read_pcd_header(const MappedFile& file) { return PcdHeaderParser(file).parse(); }
 
 }  // namespace atrium::io

@@ -16,14 +16,14 @@ namespace {
 constexpr bool swapped = std::endian::native == std::endian::big;  // PCD files hold little-endian numbers
 
 /// The field's role: none for the fields that cannot have it (several numbers, a role already taken).
-Role role_of(const PcdField& field, const RawGeometry& geometry) {
+Role pcd_role_of(const PcdField& field, const RawGeometry& geometry) {
   const Role role = io::role_of(field.name);
   if (role == Role::none || field.count != 1 || geometry.column(role)) return Role::none;
   return role == Role::packed_colour && size_of(field.type) != 4 ? Role::none : role;
 }
 
 void set_column(const PcdField& field, const std::byte* data, std::size_t stride, RawGeometry& geometry) {
-  const Role role = role_of(field, geometry);
+  const Role role = pcd_role_of(field, geometry);
   if (role == Role::none) return;
   // A packed colour declared as float is the same four bytes.
   const Scalar type = role == Role::packed_colour ? Scalar::u32 : field.type;
@@ -92,7 +92,7 @@ void read_row(const MappedFile& file, const PcdHeader& header, const std::vector
                             header.fields.size(), quote(token)));
 }
 
-void read_text(const MappedFile& file, const PcdHeader& header, RawGeometry& geometry, const Context& context) {
+void read_text_pcd(const MappedFile& file, const PcdHeader& header, RawGeometry& geometry, const Context& context) {
   const Lines lines(file.text().substr(header.body), header.lines + 1, true, context);
   if (lines.rows() < header.points)
     throw Error(fmt::format("{}: truncated: {} points are declared, but the file ends after {} (line {})", file.path(),
@@ -101,7 +101,7 @@ void read_text(const MappedFile& file, const PcdHeader& header, RawGeometry& geo
   std::vector<Role> roles;
   std::vector<Role> kept;
   for (const auto& field : header.fields) {
-    const Role role = role_of(field, geometry);
+    const Role role = pcd_role_of(field, geometry);
     roles.push_back(std::find(kept.begin(), kept.end(), role) == kept.end() ? role : Role::none);
     if (roles.back() != Role::none) kept.push_back(role);
   }
@@ -123,7 +123,7 @@ RawGeometry read_pcd(const std::shared_ptr<const MappedFile>& file, const Contex
   geometry.storage.push_back(file);
   if (header.points == 0) return geometry;
   if (header.data == PcdHeader::Data::ascii)
-    read_text(*file, header, geometry, context);
+    read_text_pcd(*file, header, geometry, context);
   else if (header.data == PcdHeader::Data::binary)
     read_binary(*file, header, geometry);
   else

@@ -21,9 +21,9 @@ constexpr std::pair<std::string_view, Scalar> type_names[] = {
     {"double", Scalar::f64}, {"float64", Scalar::f64}};
 
 /// Reads the header line by line.
-class Parser {
+class PlyHeaderParser {
  public:
-  explicit Parser(const MappedFile& file)
+  explicit PlyHeaderParser(const MappedFile& file)
       : lines_(file, line_end_of(file), "the header ends without 'end_header' (truncated?)") {}
 
   PlyHeader parse() {
@@ -122,6 +122,6 @@ bool PlyElement::has_lists() const {
   return false;
 }
 
-PlyHeader read_ply_header(const MappedFile& file) { return Parser(file).parse(); }
+PlyHeader read_ply_header(const MappedFile& file) { return PlyHeaderParser(file).parse(); }
 
 }  // namespace atrium::io

@@ -30,7 +30,7 @@ std::string header_of(const Mesh& mesh, bool binary) {
   return header + "end_header\n";
 }
 
-void write_binary(const Mesh& mesh, ByteBuffer& out) {
+void write_binary_ply(const Mesh& mesh, ByteBuffer& out) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Eigen::Vector3d place = mesh.origin + mesh.vertices[i];
     for (int a = 0; a < 3; ++a) out.number(place[a]);
@@ -48,7 +48,7 @@ void write_binary(const Mesh& mesh, ByteBuffer& out) {
   }
 }
 
-void write_text(const Mesh& mesh, ByteBuffer& out) {
+void write_text_ply(const Mesh& mesh, ByteBuffer& out) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Eigen::Vector3d place = mesh.origin + mesh.vertices[i];
     out.text(fmt::format("{} {} {}", place.x(), place.y(), place.z()));
@@ -75,9 +75,9 @@ void write_ply(const Mesh& mesh, bool binary, AtomicFile& file) {
   ByteBuffer out(file);
   out.text(header_of(mesh, binary));
   if (binary)
-    write_binary(mesh, out);
+    write_binary_ply(mesh, out);
   else
-    write_text(mesh, out);
+    write_text_ply(mesh, out);
   out.flush();
 }
 

@@ -9,7 +9,7 @@
 namespace atrium::io {
 namespace {
 
-void write_binary(const Mesh& mesh, ByteBuffer& out) {
+void write_binary_stl(const Mesh& mesh, ByteBuffer& out) {
   std::string head = "binary STL by Atrium; metres";
   head.resize(80, ' ');
   out.text(head);
@@ -25,7 +25,7 @@ void write_binary(const Mesh& mesh, ByteBuffer& out) {
   }
 }
 
-void write_text(const Mesh& mesh, ByteBuffer& out) {
+void write_text_stl(const Mesh& mesh, ByteBuffer& out) {
   out.text("solid atrium\n");
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Eigen::Vector3d normal = normal_of(mesh, t);
@@ -53,9 +53,9 @@ void write_stl(const Mesh& mesh, bool binary, AtomicFile& file) {
                       "lose its millimetres",
                       largest),
           "write .ply or .obj, or set binary: false (text has all digits)");
-    write_binary(mesh, out);
+    write_binary_stl(mesh, out);
   } else {
-    write_text(mesh, out);
+    write_text_stl(mesh, out);
   }
   out.flush();
 }

@@ -9,20 +9,6 @@ namespace {
 
 using Json = JsonField::Json;
 
-Json json_of(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
-Json json_of(const std::vector<Eigen::Vector3d>& ring) {
-  Json list = Json::array();
-  for (const auto& p : ring) list.push_back(json_of(p));
-  return list;
-}
-
-SurfaceClass class_of(const JsonField& field) {
-  const auto name = field.text();
-  for (const auto c : {SurfaceClass::wall, SurfaceClass::floor, SurfaceClass::ceiling, SurfaceClass::object})
-    if (name == name_of(c)) return c;
-  field.fail("is '" + name + "'", "classes are wall, floor, ceiling, object");
-}
-
 Json mesh_to_json(const Mesh& mesh) {
   Json json{{"vertices", json_of(mesh.vertices)}, {"triangles", mesh.triangles}, {"faces", mesh.primitives}};
   if (!mesh.colours.empty()) json["colours"] = mesh.colours;
@@ -66,7 +52,7 @@ Json opening_to_json(const TrueOpening& o) {
           {"face_b", o.face_b}, {"thickness", o.thickness}, {"outline", json_of(o.outline)}};
 }
 
-TrueOpening opening_from_json(const JsonField& field, std::int32_t last_room, std::int32_t last_face) {
+TrueOpening true_opening_from_json(const JsonField& field, std::int32_t last_room, std::int32_t last_face) {
   TrueOpening opening;
   opening.kind = field["kind"].text();
   opening.room_a = field["room_a"].whole(-1, last_room);
@@ -127,7 +113,7 @@ GroundTruth truth_from_json(const JsonField& root) {
   for (const auto& field : root["faces"].items()) truth.faces.push_back(face_from_json(field, last_room));
   const auto last_face = static_cast<std::int32_t>(truth.faces.size()) - 1;
   for (const auto& field : root["openings"].items())
-    truth.openings.push_back(opening_from_json(field, last_room, last_face));
+    truth.openings.push_back(true_opening_from_json(field, last_room, last_face));
   truth.mesh = root.has("mesh") ? mesh_from_json(root["mesh"], truth) : mesh_of(truth);
   return truth;
 }

@@ -27,7 +27,7 @@ std::string_view ply_type(Scalar type) {
   }
 }
 
-void write_ply(const Cloud& cloud, bool binary, ByteBuffer& out) {
+void write_cloud_ply(const Cloud& cloud, bool binary, ByteBuffer& out) {
   const auto columns = columns_of(cloud, false);
   const char* format = !binary                                      ? "ascii"
                        : std::endian::native == std::endian::little ? "binary_little_endian"
@@ -101,7 +101,7 @@ WriteCloud::Out WriteCloud::run(const In& in, const Params& params, Context& con
   AtomicFile file(target);
   ByteBuffer out(file);
   if (extension == ".ply")
-    write_ply(cloud, params.binary, out);
+    write_cloud_ply(cloud, params.binary, out);
   else if (extension == ".pcd")
     write_pcd(cloud, params.binary, out);
   else

@@ -7,7 +7,7 @@
 namespace atrium::layout {
 namespace {
 
-struct Room {
+struct CeilingRoom {
   double area = 0, seen = 0;
   std::vector<std::pair<double, double>> tops;  // of its walls, with their lengths
 };
@@ -26,7 +26,7 @@ double upper_third(std::vector<std::pair<double, double>>& tops) {
 }  // namespace
 
 std::map<std::int32_t, std::int32_t> infer_ceilings(StoreyCells& storey, double min_seen) {
-  std::map<std::int32_t, Room> rooms;
+  std::map<std::int32_t, CeilingRoom> rooms;
   const auto room_of = [&](std::int32_t cell) {
     return cell < 0 ? -1 : storey.cells[static_cast<std::size_t>(cell)].room;
   };

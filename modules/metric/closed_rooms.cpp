@@ -153,7 +153,7 @@ std::vector<double> shares(const Volume& room, const std::vector<Volume>& shells
   return result;
 }
 
-struct Pair {
+struct RoomOverlap {
   double share;
   std::size_t room, shell;
 };
@@ -176,11 +176,12 @@ ClosedRooms::Out ClosedRooms::run(const In& in, const Params& params, Context& c
           share[r] = shares(truth.rooms[r], shells, static_cast<std::size_t>(params.samples));
       },
       1);
-  std::vector<Pair> pairs;
+  std::vector<RoomOverlap> pairs;
   for (std::size_t r = 0; r < share.size(); ++r)
     for (std::size_t s = 0; s < shells.size(); ++s)
       if (share[r][s] > params.min_iou) pairs.push_back({share[r][s], r, s});
-  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.share > b.share; });
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const RoomOverlap& a, const RoomOverlap& b) { return a.share > b.share; });
   std::vector<bool> room_taken(truth.rooms.size(), false), shell_taken(shells.size(), false);
   std::size_t matched = 0;
   double sum = 0;

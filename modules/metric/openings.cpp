@@ -86,18 +86,18 @@ std::vector<Found> openings_of(const Building& building, const Context& context)
   return result;
 }
 
-struct Pair {
+struct OpeningPair {
   double share;
   std::size_t found, expected;
 };
 
 // The best first, each opening once.
-std::vector<Pair> assigned(std::vector<Pair> pairs) {
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) {
+std::vector<OpeningPair> assigned(std::vector<OpeningPair> pairs) {
+  std::sort(pairs.begin(), pairs.end(), [](const OpeningPair& p, const OpeningPair& q) {
     return std::tuple(-p.share, p.found, p.expected) < std::tuple(-q.share, q.found, q.expected);
   });
   std::set<std::size_t> found, expected;
-  std::erase_if(pairs, [&](const Pair& p) {
+  std::erase_if(pairs, [&](const OpeningPair& p) {
     if (found.count(p.found) != 0 || expected.count(p.expected) != 0) return true;
     found.insert(p.found);
     expected.insert(p.expected);
@@ -106,9 +106,9 @@ std::vector<Pair> assigned(std::vector<Pair> pairs) {
   return pairs;
 }
 
-std::vector<Pair> candidates(const std::vector<Found>& found, const std::vector<TrueOpening>& expected,
-                             const Openings::Params& params) {
-  std::vector<Pair> pairs;
+std::vector<OpeningPair> candidates(const std::vector<Found>& found, const std::vector<TrueOpening>& expected,
+                                    const Openings::Params& params) {
+  std::vector<OpeningPair> pairs;
   for (std::size_t i = 0; i < found.size(); ++i)
     for (std::size_t k = 0; k < expected.size(); ++k) {
       double share = 0;
@@ -118,11 +118,11 @@ std::vector<Pair> candidates(const std::vector<Found>& found, const std::vector<
   return pairs;
 }
 
-struct Score {
+struct OpeningScore {
   std::size_t expected = 0, found = 0, matched = 0;
 };
 
-void report(Metrics& metrics, const std::string& name, const Score& s, bool counts) {
+void report(Metrics& metrics, const std::string& name, const OpeningScore& s, bool counts) {
   const auto add = [&](const char* key, std::size_t over, double under) {
     metrics.values.push_back({name + "." + key, static_cast<double>(over) / under, ""});
   };
@@ -174,10 +174,10 @@ GroundTruth placed(const GroundTruth& truth, const Transform& transform, const E
   return result;
 }
 
-std::size_t joined_rightly(const std::vector<Pair>& pairs, const Building& building, const GroundTruth& truth) {
+std::size_t joined_rightly(const std::vector<OpeningPair>& pairs, const Building& building, const GroundTruth& truth) {
   const auto rooms = true_rooms(building, truth);
   const auto room = [&](std::int32_t i) { return i < 0 || i >= std::ssize(rooms) ? outside : rooms[i]; };
-  return static_cast<std::size_t>(std::count_if(pairs.begin(), pairs.end(), [&](const Pair& p) {
+  return static_cast<std::size_t>(std::count_if(pairs.begin(), pairs.end(), [&](const OpeningPair& p) {
     const auto& found = building.openings[p.found];
     const auto& expected = truth.openings[p.expected];
     return std::minmax({room(found.room_a), room(found.room_b)}) == std::minmax({expected.room_a, expected.room_b});
@@ -199,14 +199,14 @@ Openings::Out Openings::run(const In& in, const Params& params, Context& context
   const auto found = openings_of(building, context);
   const auto alike = candidates(found, expected, params);
   auto same_kind = alike;
-  std::erase_if(same_kind, [&](const Pair& p) {
+  std::erase_if(same_kind, [&](const OpeningPair& p) {
     return kind_of(found[p.found].opening->kind) != kind_of(expected[p.expected].kind);
   });
   same_kind = assigned(same_kind);
 
   Out out;
   report(out.metrics, "openings", {expected.size(), found.size(), same_kind.size()}, true);
-  std::map<std::string, Score> kinds;
+  std::map<std::string, OpeningScore> kinds;
   for (const auto& opening : expected) ++kinds[kind_of(opening.kind)].expected;
   for (const auto& opening : building.openings) ++kinds[kind_of(opening.kind)].found;
   for (const auto& pair : same_kind) ++kinds[kind_of(expected[pair.expected].kind)].matched;

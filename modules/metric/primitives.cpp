@@ -66,15 +66,15 @@ std::vector<std::int32_t> faces_of_points(const Cloud& cloud, const GroundTruth&
   return faces;
 }
 
-struct Comparison {
+struct PlaneComparison {
   Regions regions;
   std::size_t on_objects = 0;
 };
 
 // Found regions that are mostly on no face, and true ones with too few points, get size 0 and no overlaps.
-Comparison compare(const PlanePrimitives& planes, const std::vector<std::int32_t>& faces, std::size_t face_count,
-                   std::size_t min_points) {
-  Comparison c;
+PlaneComparison compare(const PlanePrimitives& planes, const std::vector<std::int32_t>& faces, std::size_t face_count,
+                        std::size_t min_points) {
+  PlaneComparison c;
   auto& r = c.regions;
   r.expected.assign(face_count, 0);
   r.found.assign(planes.primitives.size(), 0);

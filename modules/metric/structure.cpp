@@ -126,7 +126,7 @@ std::string name_of_buffer(double buffer, std::size_t digits) {
   return "b" + std::string(digits > number.size() ? digits - number.size() : 0, '0') + number + "mm";
 }
 
-struct Comparison {
+struct SurfaceComparison {
   const Side &truth, &mesh;
   std::vector<double> from_truth, from_mesh;
 };
@@ -149,7 +149,7 @@ struct Buffers {
   std::vector<double> asked, curve;
 };
 
-void report(Structure::Out& out, const Comparison& c, const Filter& surface, const Buffers& buffers) {
+void report(Structure::Out& out, const SurfaceComparison& c, const Filter& surface, const Buffers& buffers) {
   const Profile truth(c.truth, c.from_truth, surface), mesh(c.mesh, c.from_mesh, surface);
   if (!(truth.area() > 0) && !(mesh.area() > 0)) return;
   const std::string own = surface ? std::string(name_of(*surface)) : "";
@@ -185,13 +185,13 @@ Structure::Out Structure::run(const In& in, const Params& params, Context& conte
   const double reach = std::max(*std::max_element(buffers.asked.begin(), buffers.asked.end()),
                                 buffers.curve.empty() ? 0 : buffers.curve.back());
   const auto compare = [&](bool same_class) {
-    return Comparison{truth, mesh, distances(truth, mesh, same_class, reach, params, context),
-                      distances(mesh, truth, same_class, reach, params, context)};
+    return SurfaceComparison{truth, mesh, distances(truth, mesh, same_class, reach, params, context),
+                             distances(mesh, truth, same_class, reach, params, context)};
   };
   Out out;
   report(out, compare(false), {}, buffers);
   if (!truth.has_classes() || !mesh.has_classes()) return out;
-  const Comparison by_class = compare(true);
+  const SurfaceComparison by_class = compare(true);
   for (const auto surface : structural) report(out, by_class, surface, buffers);
   return out;
 }

@@ -1,10 +1,12 @@
 #include "modules/normal/local_plane.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "modules/geometry/symmetric_eigen.hpp"
 
 namespace atrium::normal {
 
@@ -50,9 +52,9 @@ Eigen::Vector3d least_axis(const Eigen::Matrix3d& matrix, Eigen::Vector3d& eigen
     if (length > 1e-6 * top * top) return *best / length;
   }
   // Two or three equal eigenvalues: any vector of their space will do, but it must be a good one.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
-  eigenvalues = solver.eigenvalues().cwiseMax(0.0);
-  const Eigen::Vector3d axis = solver.eigenvectors().col(0);
+  const SymmetricEigen principal = symmetric_eigen(matrix);
+  eigenvalues = principal.values.cwiseMax(0.0);
+  const Eigen::Vector3d axis = principal.vectors.col(0);
   const double length = axis.norm();
   return std::isfinite(length) && length > 0.5 ? Eigen::Vector3d(axis / length) : Eigen::Vector3d::UnitZ();
 }

@@ -1,8 +1,6 @@
 #include "modules/object/greedy.hpp"
 
 #include <pcl/console/print.h>
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>
 #include <pcl/surface/gp3.h>
 
@@ -12,6 +10,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "modules/object/pcl_points.hpp"
 #include "modules/object/surface.hpp"
 
 namespace atrium::object {
@@ -32,16 +31,6 @@ std::vector<std::uint32_t> distinct(const Cloud& cloud) {
       order.end());
   std::sort(order.begin(), order.end());
   return order;
-}
-
-pcl::PointCloud<pcl::PointNormal>::Ptr to_pcl(const Cloud& cloud) {
-  pcl::PointCloud<pcl::PointNormal>::Ptr result(new pcl::PointCloud<pcl::PointNormal>);
-  result->resize(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    (*result)[i].getVector3fMap() = cloud.points[i];
-    (*result)[i].getNormalVector3fMap() = cloud.normals[i];
-  }
-  return result;
 }
 
 RawSurface reconstruct(const Cloud& cloud, const Greedy::Params& params) {

@@ -30,20 +30,11 @@
 #undef printf
 #pragma GCC diagnostic pop
 
+#include "modules/object/pcl_points.hpp"
 #include "modules/object/surface.hpp"
 
 namespace atrium::object {
 namespace {
-
-pcl::PointCloud<pcl::PointNormal>::Ptr to_pcl(const Cloud& cloud) {
-  pcl::PointCloud<pcl::PointNormal>::Ptr result(new pcl::PointCloud<pcl::PointNormal>);
-  result->resize(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    (*result)[i].getVector3fMap() = cloud.points[i];
-    (*result)[i].getNormalVector3fMap() = cloud.normals[i];
-  }
-  return result;
-}
 
 namespace solver = pcl::poisson;
 

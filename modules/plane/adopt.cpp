@@ -12,14 +12,14 @@
 namespace atrium::plane {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_primitive = std::numeric_limits<std::uint32_t>::max();
 
 /// A primitive's rectangle, to look points up in.
 struct Frame {
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
   Eigen::Vector3f corner = Eigen::Vector3f::Zero(), along = Eigen::Vector3f::Zero(), across = Eigen::Vector3f::Zero();
   float offset = 0, length = 0, width = 0;
-  std::uint32_t primitive = none;
+  std::uint32_t primitive = no_primitive;
   bool normals_agree = false;  ///< those of its points look to the side that it was seen from
 };
 
@@ -55,7 +55,7 @@ class Adoption {
 
   std::uint32_t home_of(std::size_t i) const {
     const Eigen::Vector3f& p = cloud_.points[i];
-    std::uint32_t best = none;
+    std::uint32_t best = no_primitive;
     float least = distance_;
     for (const Frame& f : frames_) {
       const float off = std::abs(f.normal.dot(p) + f.offset);
@@ -93,7 +93,7 @@ Adopt::Out Adopt::run(const In& in, const Params& params, Context& context) {
   std::vector<MeasuredPlane> measured = measure_planes(*in.planes, context);
   const double distance = params.distance > 0 ? params.distance : 3 * mean_residual(measured);
   std::vector<Frame> frames;
-  std::vector<std::uint32_t> home(cloud.size(), none);
+  std::vector<std::uint32_t> home(cloud.size(), no_primitive);
   for (std::size_t i = 0; i < measured.size(); ++i) {
     if (measured[i].moments.count > 0) {
       frames.push_back(frame_of(measured[i], i));
@@ -102,15 +102,15 @@ Adopt::Out Adopt::run(const In& in, const Params& params, Context& context) {
     for (const auto k : in.planes->primitives[i].inliers) home[k] = static_cast<std::uint32_t>(i);
   }
   const Adoption adoption(cloud, frames, static_cast<float>(distance), static_cast<float>(params.reach));
-  std::vector<std::uint32_t> adopted(cloud.size(), none);
+  std::vector<std::uint32_t> adopted(cloud.size(), no_primitive);
   context.parallel_for(cloud.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (home[i] == none) adopted[i] = adoption.home_of(i);
+      if (home[i] == no_primitive) adopted[i] = adoption.home_of(i);
   });
   Out out{*in.planes};
   std::size_t count = 0;
   for (std::size_t i = 0; i < adopted.size(); ++i) {
-    if (adopted[i] == none) continue;
+    if (adopted[i] == no_primitive) continue;
     ++count;
     out.planes.primitives[adopted[i]].inliers.push_back(static_cast<std::uint32_t>(i));
     measured[adopted[i]].moments.add(cloud.points[i].cast<double>());

@@ -9,7 +9,7 @@ namespace atrium::plane {
 namespace {
 
 constexpr std::size_t enough_to_draw_from = 65536;
-constexpr std::size_t chunk_size = 32;
+constexpr std::size_t draws_per_chunk = 32;
 constexpr double learned_share = 0.9;  // x of equation (11)
 
 const RandomSubset& choose_source(const RandomSubsets& subsets) {
@@ -109,8 +109,8 @@ void LocalizedSampler::improve(Candidate& candidate) const {
 
 std::vector<Candidate> LocalizedSampler::draw(std::size_t count, double min_support, std::uint64_t stream,
                                               const Context& context) {
-  std::vector<std::vector<Drawn>> chunks((count + chunk_size - 1) / chunk_size);
-  context.parallel_chunks(count, chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+  std::vector<std::vector<Drawn>> chunks((count + draws_per_chunk - 1) / draws_per_chunk);
+  context.parallel_chunks(count, draws_per_chunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     Random random = context.random(stream + chunk);
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t level = pick_level(random.uniform());

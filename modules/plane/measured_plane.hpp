@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <numbers>
 #include <vector>
 
 #include "graph/api/context.hpp"
@@ -8,6 +9,8 @@
 #include "modules/types/plane_primitives.hpp"
 
 namespace atrium::plane {
+
+inline constexpr double radians_per_degree = std::numbers::pi / 180.0;
 
 /// A primitive's points in short: their moments about the frame's zero and their bounding rectangle in the plane.
 struct MeasuredPlane {

@@ -13,8 +13,6 @@
 namespace atrium::plane {
 namespace {
 
-constexpr double radians = std::numbers::pi / 180.0;
-
 struct Group {
   Plane plane;
   Moments moments;  ///< of the points that the plane is fitted to
@@ -36,7 +34,7 @@ class Merging {
         distance_(distance),
         sheet_distance_(std::max(distance, sheet_distance)),
         layer_distance_(std::max(sheet_distance_, layer_distance)),
-        least_cosine_(std::cos(angle * radians)) {}
+        least_cosine_(std::cos(angle * radians_per_degree)) {}
 
   std::vector<Group> run(const Context& context) {
     std::vector<std::size_t> order;

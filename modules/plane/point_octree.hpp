@@ -48,6 +48,9 @@ struct MortonOrder {
   PointColumns columns;              ///< with normals if asked: 0 where the cloud has none
 };
 
+/// Points of a leaf, at most: as many as are tested at once.
+inline constexpr std::uint32_t octree_leaf_size = 32;
+
 /// An octree over columns in Morton order, stored in preorder. Boxes are tight around the points, so that the planes
 /// which miss a box are exact to find out.
 class PointOctree {

@@ -11,9 +11,8 @@ namespace {
 
 constexpr double first_subset = 4096;
 constexpr double growth = 8;
-constexpr std::uint32_t leaf_size = 32;
-constexpr std::size_t chunk_size = 65536;
-constexpr std::uint8_t none = 255;
+constexpr std::size_t subset_chunk = 65536;
+constexpr std::uint8_t no_subset = 255;
 
 /// Writes which points of the range support the plane; returns how many.
 std::uint32_t collect(const PointColumns& c, std::uint32_t begin, std::uint32_t end, const FloatPlane& plane,
@@ -70,10 +69,10 @@ template <class IsFree>
 Division divide(std::size_t total, const std::vector<double>& shares, std::uint64_t seed, IsFree is_free,
                 const Context& context) {
   Division d;
-  d.target.assign(total, none);
-  d.offsets.assign((total + chunk_size - 1) / chunk_size, std::vector<std::uint32_t>(shares.size(), 0));
+  d.target.assign(total, no_subset);
+  d.offsets.assign((total + subset_chunk - 1) / subset_chunk, std::vector<std::uint32_t>(shares.size(), 0));
   d.sizes.assign(shares.size(), 0);
-  context.parallel_chunks(total, chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+  context.parallel_chunks(total, subset_chunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!is_free(i)) continue;
       const double u = static_cast<double>(mix_seed(seed, i) >> 11U) * 0x1.0p-53;
@@ -106,12 +105,12 @@ std::uint32_t RandomSubset::count(const FloatPlane& plane, const Tolerance& tole
 Moments RandomSubset::moments(const FloatPlane& plane, const Tolerance& tolerance) const {
   Moments sum;
   if (octree.nodes().empty()) return sum;
-  std::array<std::uint32_t, leaf_size> hits;
+  std::array<std::uint32_t, octree_leaf_size> hits;
   octree.visit_slab(0, plane, tolerance.distance, [&](std::uint32_t begin, std::uint32_t end) {
-    // Leaves of many points in one place can be larger than leaf_size.
-    for (; begin < end; begin += leaf_size) {
+    // Leaves of many points in one place can be larger than octree_leaf_size.
+    for (; begin < end; begin += octree_leaf_size) {
       const std::uint32_t count =
-          collect(columns, begin, std::min(begin + leaf_size, end), plane, tolerance, hits.data());
+          collect(columns, begin, std::min(begin + octree_leaf_size, end), plane, tolerance, hits.data());
       for (std::uint32_t k = 0; k < count; ++k) sum.add(columns.point(hits[k]).cast<double>());
     }
   });
@@ -123,8 +122,8 @@ RandomSubsets::RandomSubsets(const MortonOrder& order, const std::vector<std::in
   const std::size_t total = owner.size();
   std::size_t free = 0;
   const auto is_free = [&](std::size_t i) { return owner[i] < 0 && order.columns.is_live(i); };
-  std::vector<std::size_t> counts((total + chunk_size - 1) / chunk_size, 0);
-  context.parallel_chunks(total, chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+  std::vector<std::size_t> counts((total + subset_chunk - 1) / subset_chunk, 0);
+  context.parallel_chunks(total, subset_chunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) counts[chunk] += is_free(i) ? 1 : 0;
   });
   for (const std::size_t count : counts) free += count;
@@ -139,10 +138,10 @@ RandomSubsets::RandomSubsets(const MortonOrder& order, const std::vector<std::in
     subsets_[k].live = division.sizes[k];
     codes[k].resize(division.sizes[k]);
   }
-  context.parallel_chunks(total, chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+  context.parallel_chunks(total, subset_chunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint8_t k = division.target[i];
-      if (k == none) continue;
+      if (k == no_subset) continue;
       const std::uint32_t to = division.offsets[chunk][k]++;
       subsets_[k].columns.copy(to, order.columns, i);
       subsets_[k].place[to] = static_cast<std::uint32_t>(i);
@@ -150,7 +149,7 @@ RandomSubsets::RandomSubsets(const MortonOrder& order, const std::vector<std::in
     }
   });
   for (std::size_t k = 0; k < subsets_.size(); ++k)
-    subsets_[k].octree = PointOctree(subsets_[k].columns, codes[k], leaf_size, context);
+    subsets_[k].octree = PointOctree(subsets_[k].columns, codes[k], octree_leaf_size, context);
   live_ = built_ = free;
 }
 

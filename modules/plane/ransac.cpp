@@ -12,8 +12,6 @@
 namespace atrium::plane {
 namespace {
 
-constexpr std::uint32_t leaf_size = 32;
-
 void check(const Cloud& cloud) {
   if (cloud.size() < 3)
     throw Error("a plane needs at least 3 points, the cloud has " + std::to_string(cloud.size()),
@@ -38,7 +36,7 @@ Ransac::Out Ransac::run(const In& in, const Params& params, Context& context) {
                                               : std::max<std::size_t>(50, cloud.size() / 2000);
 
   const MortonOrder order(cloud, params.distance / 2, context, MortonOrder::Normals::yes);
-  const PointOctree octree(order.columns, order.codes, leaf_size, context);
+  const PointOctree octree(order.columns, order.codes, octree_leaf_size, context);
   const LocalSpacing spacing(order, context);
   const Connectivity connectivity{spacing, params.cluster_distance};
   const std::vector<Patch> patches = PlaneSearch(order, connectivity, settings, context).run();

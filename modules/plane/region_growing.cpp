@@ -18,7 +18,6 @@
 namespace atrium::plane {
 namespace {
 
-constexpr std::uint32_t leaf_size = 32;
 constexpr std::uint32_t least_level = 2;  // of a voxel above the order's cells
 constexpr std::uint32_t coarsest_level = 8;
 constexpr double distance_per_residual = 2.5;
@@ -163,7 +162,7 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
   limits.min_points = params.min_points > 0 ? static_cast<std::size_t>(std::max(3, params.min_points))
                                             : points_of(params.min_area, spacing);
 
-  const PointOctree octree(order.columns, order.codes, leaf_size, context);
+  const PointOctree octree(order.columns, order.codes, octree_leaf_size, context);
   constexpr float any_normal = -2;
   const Tolerance tolerance{static_cast<float>(limits.distance), any_normal};
   KnownVoxels known_voxels;

@@ -16,7 +16,7 @@ namespace atrium::plane {
 namespace {
 
 /// A plane that one position saw.
-struct Patch {
+struct SeenPatch {
   std::size_t position = 0;
   MeasuredPlane measured;
 };
@@ -39,10 +39,10 @@ std::vector<std::vector<std::uint32_t>> points_of_positions(const Cloud& cloud, 
   return chosen;
 }
 
-std::vector<Patch> patches_of(const Cloud& cloud, const RegisterPositions::Params& params, Context& context) {
+std::vector<SeenPatch> patches_of(const Cloud& cloud, const RegisterPositions::Params& params, Context& context) {
   constexpr std::size_t few = 100;  // plane.region_growing asks for 50 of a plane
   const auto chosen = points_of_positions(cloud, static_cast<std::size_t>(params.max_points));
-  std::vector<std::vector<Patch>> found(chosen.size());
+  std::vector<std::vector<SeenPatch>> found(chosen.size());
   context.parallel_chunks(chosen.size(), 1, [&](std::size_t position, std::size_t, std::size_t) {
     if (chosen[position].size() < few) return;
     const auto own = std::make_shared<Cloud>(select(cloud, chosen[position]));
@@ -50,13 +50,13 @@ std::vector<Patch> patches_of(const Cloud& cloud, const RegisterPositions::Param
     for (auto& measured : measure_planes(grown.planes, context))
       if (measured.moments.count > 0) found[position].push_back({position, std::move(measured)});
   });
-  std::vector<Patch> patches;
+  std::vector<SeenPatch> patches;
   for (auto& part : found) std::move(part.begin(), part.end(), std::back_inserter(patches));
   return patches;
 }
 
-Patch moved(const Patch& patch, const Eigen::Vector3d& shift) {
-  Patch result = patch;
+SeenPatch moved(const SeenPatch& patch, const Eigen::Vector3d& shift) {
+  SeenPatch result = patch;
   result.measured.plane.offset -= patch.measured.plane.normal.dot(shift);
   for (auto& corner : result.measured.corners) corner += shift;
   return result;
@@ -64,7 +64,8 @@ Patch moved(const Patch& patch, const Eigen::Vector3d& shift) {
 
 Eigen::Vector3d middle_of(const MeasuredPlane& plane) { return (plane.corners[0] + plane.corners[2]) / 2; }
 
-std::optional<SharedPlane> pair_of(const Patch& first, const Patch& second, const RegisterPositions::Params& params) {
+std::optional<SharedPlane> pair_of(const SeenPatch& first, const SeenPatch& second,
+                                   const RegisterPositions::Params& params) {
   const MeasuredPlane &a = first.measured, &b = second.measured;
   // The distance in the middle of both, where neither plane's tilt counts for much.
   const Eigen::Vector3d middle = (middle_of(a) + middle_of(b)) / 2;
@@ -75,11 +76,11 @@ std::optional<SharedPlane> pair_of(const Patch& first, const Patch& second, cons
   return SharedPlane{first.position, second.position, (a.plane.normal + b.plane.normal).normalized(), offset, shared};
 }
 
-std::vector<SharedPlane> pairs_of(const std::vector<Patch>& patches, const std::vector<Eigen::Vector3d>& shifts,
+std::vector<SharedPlane> pairs_of(const std::vector<SeenPatch>& patches, const std::vector<Eigen::Vector3d>& shifts,
                                   const RegisterPositions::Params& params, const Context& context) {
   constexpr std::size_t chunk_size = 16;
   const double least_cosine = std::cos(params.max_angle * std::numbers::pi / 180);
-  std::vector<Patch> now;
+  std::vector<SeenPatch> now;
   std::vector<Eigen::Vector3d> normals;
   now.reserve(patches.size());
   normals.reserve(patches.size());
@@ -133,7 +134,7 @@ RegisterPositions::Out RegisterPositions::run(const In& in, const Params& params
     context.info("the cloud has fewer than two positions: nothing to register");
     return {in.cloud};
   }
-  const std::vector<Patch> patches = patches_of(cloud, params, context);
+  const std::vector<SeenPatch> patches = patches_of(cloud, params, context);
   std::vector<MeasuredPlane> measured;
   measured.reserve(patches.size());
   for (const auto& patch : patches) measured.push_back(patch.measured);

@@ -14,14 +14,13 @@
 namespace atrium::plane {
 namespace {
 
-constexpr double radians = std::numbers::pi / 180.0;
 constexpr double quarter = std::numbers::pi / 2;
 
 /// The planes of the scene while they are turned.
 class Turning {
  public:
   Turning(std::vector<MeasuredPlane>& planes, double distance, double angle)
-      : planes_(planes), distance_(distance), least_cosine_(std::cos(angle * radians)) {}
+      : planes_(planes), distance_(distance), least_cosine_(std::cos(angle * radians_per_degree)) {}
 
   /// Turns plane i to the normal if that moves none of its places by more than the limit.
   bool turn(std::size_t i, const Eigen::Vector3d& normal) {

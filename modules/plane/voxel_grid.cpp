@@ -5,7 +5,7 @@
 namespace atrium::plane {
 namespace {
 
-constexpr std::size_t chunk_size = 1024;
+constexpr std::size_t voxels_per_chunk = 1024;
 
 /// Every third bit of a Morton code.
 std::uint32_t gather_bits(std::uint64_t v) {
@@ -52,7 +52,7 @@ VoxelGrid::VoxelGrid(const MortonOrder& order, double cell, std::uint32_t level,
           measure(voxel, order, owner, planarity);
         }
       },
-      chunk_size);
+      voxels_per_chunk);
   make_blocks();
 }
 
@@ -70,7 +70,7 @@ void VoxelGrid::update(const MortonOrder& order, const std::vector<std::int32_t>
           measure(voxel, order, owner, planarity);
         }
       },
-      chunk_size);
+      voxels_per_chunk);
 }
 
 void VoxelGrid::measure(Voxel& voxel, const MortonOrder& order, const std::vector<std::int32_t>& owner,

@@ -7,7 +7,7 @@
 namespace atrium::refine {
 
 void check_matches(const Adjacency& adjacency, const PlaneMeshes& meshes) {
-  const auto vertices = boost::num_vertices(adjacency.graph);
+  const std::size_t vertices = adjacency.vertices();
   if (vertices != meshes.meshes.size())
     throw Error(
         fmt::format("the adjacency graph has {} vertices, but there are {} meshes", vertices, meshes.meshes.size()),

@@ -111,7 +111,7 @@ void add_meshes(Drawing& drawing, const Snapshot::In& in, const Snapshot::Params
   if (in.meshes) drawing.add_mesh(triangulated(*in.meshes), surfaces);
   if (in.adjacency) {
     if (!in.meshes) throw Error("an adjacency graph is drawn between meshes", "wire the input 'meshes' too");
-    if (boost::num_vertices(in.adjacency->graph) > in.meshes->meshes.size())
+    if (in.adjacency->vertices() > in.meshes->meshes.size())
       throw Error("the adjacency graph is not of these meshes: it has more vertices than there are meshes",
                   "wire the meshes that the graph was made from");
     drawing.add_adjacency(*in.meshes, *in.adjacency);

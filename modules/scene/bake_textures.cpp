@@ -37,7 +37,7 @@ std::vector<std::vector<std::uint32_t>> points_over_all(const std::vector<Textur
   return result;
 }
 
-void check(const Mesh& mesh) {
+void check_paintable(const Mesh& mesh) {
   if (mesh.triangles.empty()) return;
   if (mesh.classes.empty() || mesh.primitives.empty())
     throw Error("the mesh does not say which triangles belong to which wall, floor or ceiling",
@@ -47,7 +47,7 @@ void check(const Mesh& mesh) {
 }  // namespace
 
 BakeTextures::Out BakeTextures::run(const In& in, const Params& params, Context& context) {
-  check(*in.mesh);
+  check_paintable(*in.mesh);
   const Cloud& cloud = *in.cloud;
   Out out;
   out.textures.origin = in.mesh->origin;

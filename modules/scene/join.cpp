@@ -8,7 +8,7 @@
 namespace atrium::scene {
 namespace {
 
-void check(const Mesh& structure) {
+void check_structure(const Mesh& structure) {
   const std::size_t count = structure.triangles.size();
   if (structure.classes.size() != count || structure.storeys.size() != count || structure.primitives.size() != count)
     throw Error(
@@ -54,7 +54,7 @@ Mesh open_above(const Mesh& mesh) {
 }  // namespace
 
 Join::Out Join::run(const In& in, const Params& /*params*/, Context& /*context*/) {
-  check(*in.structure);
+  check_structure(*in.structure);
   Mesh structure = *in.structure;
   const bool colours = !structure.colours.empty() || (in.objects && !in.objects->colours.empty());
   if (colours && structure.colours.empty()) colour(structure);

@@ -12,7 +12,7 @@ namespace {
 
 using V = Eigen::Vector3d;
 
-constexpr Colour floor_colour{160, 120, 80}, slope_colour{236, 232, 222}, wall_colour{214, 208, 220};
+constexpr Colour boards_colour{160, 120, 80}, slope_colour{236, 232, 222}, wall_colour{214, 208, 220};
 
 /// The section across the ridge: its corners as (y, z), and the heights in it.
 struct Section {
@@ -55,7 +55,7 @@ void add_dormer_faces(Building& b, int room, const Section& s, const Dormer& d) 
 Faces add_room(Building& b, int room, const Section& s, double x0, double x1, const Dormer* dormer) {
   Faces faces;
   const double in = s.inset(), d = s.depth;
-  add(b, room, SurfaceClass::floor, {{x0, 0, 0}, {x1, 0, 0}, {x1, d, 0}, {x0, d, 0}}, V::UnitZ(), floor_colour);
+  add(b, room, SurfaceClass::floor, {{x0, 0, 0}, {x1, 0, 0}, {x1, d, 0}, {x0, d, 0}}, V::UnitZ(), boards_colour);
   faces.south_slope =
       add(b, room, SurfaceClass::ceiling, {{x0, 0, s.knee}, {x1, 0, s.knee}, {x1, in, s.top}, {x0, in, s.top}},
           -V::UnitZ(), slope_colour);

@@ -8,7 +8,7 @@ namespace atrium::synth {
 namespace {
 
 using V = Eigen::Vector3d;
-constexpr double radians = std::numbers::pi / 180;
+constexpr double radians_per_degree = std::numbers::pi / 180;
 constexpr int attempts = 20000;   // rays for one point before the scanner is said to see nothing
 constexpr double grazing = 0.05;  // cosine of the flattest angle at which a surface still answers
 constexpr double step = 1e-6;     // behind a pane or before a mirror the ray goes on from here
@@ -111,7 +111,7 @@ std::optional<Echo> Scanner::cast(std::size_t station, const V& direction, doubl
 
 V Scanner::direction_of(const Station& station, double azimuth, Random& random) const {
   if (params_.pattern == Scan::Pattern::spherical) {
-    const double elevation = random.uniform(params_.lowest_elevation, 90) * radians;
+    const double elevation = random.uniform(params_.lowest_elevation, 90) * radians_per_degree;
     return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
   }
   for (;;) {  // the carrier stands behind the device
@@ -144,7 +144,7 @@ Echo Scanner::sweep(std::size_t point, std::size_t total, Random& random) const 
 // A second ray at the beam's rim tells whether the beam straddles a depth edge.
 void Scanner::mix(Echo& echo, double share, Random& random) const {
   if (params_.beam <= 0 || params_.mixed_pixels <= 0) return;
-  const double angle = random.uniform(0, 2 * std::numbers::pi), tilt = params_.beam / 2 * radians;
+  const double angle = random.uniform(0, 2 * std::numbers::pi), tilt = params_.beam / 2 * radians_per_degree;
   const V rim = bent(echo.direction, tilt * std::cos(angle), tilt * std::sin(angle));
   const bool mixes = random.uniform() < params_.mixed_pixels;
   const double where = random.uniform();
@@ -193,7 +193,8 @@ Echo Scanner::look(std::size_t point, std::size_t total, std::size_t& last_stati
 
 V Scanner::measure(Echo& echo, Random& random) const {
   const Station& station = stations_[echo.station];
-  const double range = echo.range + params_.noise * random.normal(), across = params_.angular_noise * radians;
+  const double range = echo.range + params_.noise * random.normal(),
+               across = params_.angular_noise * radians_per_degree;
   V direction = echo.direction;
   if (across > 0) {
     const double right = across * random.normal(), up = across * random.normal();

@@ -6,27 +6,17 @@
 
 namespace atrium {
 
-Adjacency::Contents Adjacency::contents(const Adjacency& adjacency) {
-  return {boost::num_vertices(adjacency.graph), adjacency.edges()};
-}
-
-Adjacency Adjacency::from_contents(const Contents& contents) {
-  Adjacency adjacency{Graph(contents.first)};
-  for (const Edge& edge : contents.second) {
-    if (edge.a >= contents.first || edge.b >= contents.first)
-      throw Error("an edge leads to a vertex that is not there");
-    boost::add_edge(edge.a, edge.b, AdjacencyEdge{edge.separation}, adjacency.graph);
-  }
-  return adjacency;
+void Adjacency::connect(std::size_t a, std::size_t b, double separation) {
+  if (a >= vertices() || b >= vertices() || a == b) throw Error("an edge leads to a vertex that is not there");
+  neighbours_[a].push_back({b, separation});
+  neighbours_[b].push_back({a, separation});
 }
 
 std::vector<Adjacency::Edge> Adjacency::edges() const {
   std::vector<Edge> result;
-  for (auto [it, end] = boost::edges(graph); it != end; ++it) {
-    const std::uint64_t s = boost::source(*it, graph);
-    const std::uint64_t t = boost::target(*it, graph);
-    result.push_back({std::min(s, t), std::max(s, t), graph[*it].separation});
-  }
+  for (std::size_t a = 0; a < vertices(); ++a)
+    for (const Neighbour& b : neighbours_[a])
+      if (a < b.mesh) result.push_back({a, b.mesh, b.separation});
   std::sort(result.begin(), result.end(),
             [](const Edge& l, const Edge& r) { return std::tie(l.a, l.b) < std::tie(r.a, r.b); });
   return result;
@@ -34,9 +24,19 @@ std::vector<Adjacency::Edge> Adjacency::edges() const {
 
 std::vector<std::size_t> Adjacency::neighbours(std::size_t mesh) const {
   std::vector<std::size_t> result;
-  for (auto [it, end] = boost::adjacent_vertices(mesh, graph); it != end; ++it) result.push_back(*it);
+  for (const Neighbour& neighbour : neighbours_[mesh]) result.push_back(neighbour.mesh);
   std::sort(result.begin(), result.end());
   return result;
+}
+
+Adjacency::Contents Adjacency::contents(const Adjacency& adjacency) {
+  return {adjacency.vertices(), adjacency.edges()};
+}
+
+Adjacency Adjacency::from_contents(const Contents& contents) {
+  Adjacency adjacency(contents.first);
+  for (const Edge& edge : contents.second) adjacency.connect(edge.a, edge.b, edge.separation);
+  return adjacency;
 }
 
 }  // namespace atrium

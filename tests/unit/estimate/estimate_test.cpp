@@ -135,7 +135,7 @@ TEST(EstimateAdjacency, JoinsWhatIsNearerThanTheLimit) {
   EXPECT_NEAR(all[0].separation, 0.4, 1e-6);
   EXPECT_NEAR(all[1].separation, 0.2, 1e-6);
   EXPECT_NEAR(all[3].separation, std::hypot(0.4, 0.2), 1e-6);
-  EXPECT_EQ(boost::num_vertices(Adjacency::run({input(atrium::PlaneMeshes{})}, {0.5}, context).adjacency.graph), 0U);
+  EXPECT_EQ(Adjacency::run({input(atrium::PlaneMeshes{})}, {0.5}, context).adjacency.vertices(), 0U);
 }
 
 }  // namespace

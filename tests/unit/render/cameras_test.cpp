@@ -154,9 +154,8 @@ TEST(Snapshot, AdjacencyIsLinesBetweenTheMiddles) {
   params.views = {"top"};
   params.legend = params.scale_bar = params.edges = false;
   const auto meshes = input(room(Eigen::Vector3d::Zero()));
-  Adjacency adjacency;
-  adjacency.graph = Adjacency::Graph(6);
-  boost::add_edge(2, 3, {0.1}, adjacency.graph);
+  Adjacency adjacency(6);
+  adjacency.connect(2, 3, 0.1);
   const auto line = [&](const Adjacency& graph) {
     const auto out = Snapshot::run({.meshes = meshes, .adjacency = input(graph)}, params, context);
     double most = 0;
@@ -166,10 +165,10 @@ TEST(Snapshot, AdjacencyIsLinesBetweenTheMiddles) {
     }
     return most;
   };
-  const Adjacency none{Adjacency::Graph(6)};
+  const Adjacency none(6);
   EXPECT_GT(line(adjacency), line(none) + 20);
   EXPECT_THROW(Snapshot::run({.adjacency = input(adjacency)}, params, context), Error) << "without meshes";
-  const Adjacency of_others{Adjacency::Graph(7)};
+  const Adjacency of_others(7);
   EXPECT_THROW(Snapshot::run({.meshes = meshes, .adjacency = input(of_others)}, params, context), Error);
 }
 

@@ -38,8 +38,8 @@ void fill(T& value, Random& random) {
   } else if constexpr (detail::EigenFixed<T>) {
     for (auto& x : value.reshaped()) fill(x, random);
   } else if constexpr (std::is_same_v<T, Adjacency>) {
-    value.graph = Adjacency::Graph(5);
-    for (std::size_t i = 0; i < 4; ++i) boost::add_edge(i + 1, i, AdjacencyEdge{random.uniform()}, value.graph);
+    value = Adjacency(5);
+    for (std::size_t i = 0; i < 4; ++i) value.connect(i + 1, i, random.uniform());
   } else if constexpr (detail::HasMembers<T>) {
     std::apply([&](auto... member) { (fill(value.*member, random), ...); }, T::members());
   } else if constexpr (requires { std::tuple_size<T>::value; }) {
