@@ -182,7 +182,7 @@ Eigen::Vector3d found_up(const PlanePrimitives& planes, const std::vector<FacedA
 
 Eigen::Vector3d direction_of(const std::vector<double>& values) {
   if (values.size() != 3) throw Error(fmt::format("'up' has {} numbers instead of three", values.size()), "[0, 0, 1]");
-  const Eigen::Vector3d direction(values[0], values[1], values[2]);
+  Eigen::Vector3d direction(values[0], values[1], values[2]);
   if (!direction.allFinite())
     throw Error(fmt::format("'up' is [{}, {}, {}], which is no direction", values[0], values[1], values[2]),
                 "[0, 0, 1] where z points up; [0, 0, 0] to find out");

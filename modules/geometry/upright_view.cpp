@@ -80,6 +80,7 @@ void UprightView::place(const SurfacePieces& pieces, const Eigen::Vector3d& axis
   columns_.push_back(static_cast<std::uint32_t>(items_.size()));
 }
 
+// NOLINTNEXTLINE(readability-function-size)
 void UprightView::find_levels() {
   std::vector<float> heights;
   for (const auto& item : items_)

@@ -129,6 +129,29 @@ class Shifted {
   std::vector<std::uint32_t> place_;  ///< in the unshifted order, of each point of the cloud
 };
 
+/// The distance of points from their planes, and voxels wide enough to show which way a plane lies.
+void derive_from_noise(const MortonOrder& order, const std::vector<std::int32_t>& owner,
+                       const RegionGrowing::Params& params, Settings& settings, const Context& context) {
+  settings.planarity.max_residual = settings.cell * (1U << least_level);
+  const double noise = noise_of(VoxelGrid(order, settings.cell, settings.level, owner, settings.planarity, context),
+                                settings.level == least_level);
+  context.info(
+      fmt::format("noise {:.1f} mm, voxels of {:.0f} mm", 1000 * noise, 1000 * settings.cell * (1U << settings.level)));
+  settings.limits.distance = std::max({distance_per_residual * noise, params.min_distance, 1e-6});
+  if (params.voxel_size > 0) return;
+  while (settings.level < coarsest_level && settings.cell * (1U << settings.level) < voxel_per_noise * noise)
+    ++settings.level;
+}
+
+void report(const SeenSides& sides, std::size_t planes, const Context& context) {
+  context.info(fmt::format("sides told by positions for {} planes, by free space for {}, by normals for {}",
+                           sides.by_positions, sides.by_free_space, sides.by_normals));
+  if (2 * sides.turned_against_normals > planes)
+    context.warn(fmt::format(
+        "the normals of {} of {} planes look to the side from which they were not seen: only their axes are used",
+        sides.turned_against_normals, planes));
+}
+
 }  // namespace
 
 RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Context& context) {
@@ -145,17 +168,7 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
   const std::vector<std::int32_t>& owner = assignment.owner;
   GrowthLimits& limits = settings.limits;
   limits.distance = params.distance;
-  if (params.distance == 0) {
-    settings.planarity.max_residual = settings.cell * (1U << least_level);
-    const double noise = noise_of(VoxelGrid(order, settings.cell, settings.level, owner, settings.planarity, context),
-                                  settings.level == least_level);
-    context.info(fmt::format("noise {:.1f} mm, voxels of {:.0f} mm", 1000 * noise,
-                             1000 * settings.cell * (1U << settings.level)));
-    limits.distance = std::max({distance_per_residual * noise, params.min_distance, 1e-6});
-    if (params.voxel_size == 0)
-      while (settings.level < coarsest_level && settings.cell * (1U << settings.level) < voxel_per_noise * noise)
-        ++settings.level;
-  }
+  if (params.distance == 0) derive_from_noise(order, owner, params, settings, context);
   settings.planarity.max_residual = limits.distance;
   limits.min_cosine = std::cos(params.angle * std::numbers::pi / 180);
   limits.min_area = params.min_area;
@@ -188,13 +201,7 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
   PlanePrimitives planes = fit_primitives(in.cloud, order, owner, patches, limits.min_points, context);
   if (params.max_planes > 0 && planes.primitives.size() > static_cast<std::size_t>(params.max_planes))
     planes.primitives.resize(static_cast<std::size_t>(params.max_planes));
-  const SeenSides sides = turn_to_seen_sides(planes, context);
-  context.info(fmt::format("sides told by positions for {} planes, by free space for {}, by normals for {}",
-                           sides.by_positions, sides.by_free_space, sides.by_normals));
-  if (2 * sides.turned_against_normals > planes.primitives.size())
-    context.warn(fmt::format(
-        "the normals of {} of {} planes look to the side from which they were not seen: only their axes are used",
-        sides.turned_against_normals, planes.primitives.size()));
+  report(turn_to_seen_sides(planes, context), planes.primitives.size(), context);
   return {std::move(planes)};
 }
 
