@@ -138,9 +138,8 @@ UnitGuess guess_unit(const std::vector<Eigen::Vector3f>& points, bool y_up, cons
   const std::vector<SurfacePiece> pieces = pieces_with_normals(points, sampled, context);
   const std::vector<FacedArea> faces = faces_of(pieces);
   std::vector<Rated> rated;
-  for (const auto& unit : units)
-    rated.push_back(
-        rate(unit, extent, pieces, faces, y_up, context));  // NOLINT(performance-inefficient-vector-operation)
+  rated.reserve(std::size(units));
+  for (const auto& unit : units) rated.push_back(rate(unit, extent, pieces, faces, y_up, context));
   const Rated& metres = rated.front();
   const Rated* best = &rated[1];
   for (const auto& r : rated)
