@@ -30,7 +30,7 @@ void DxfDrawing::begin(const char* kind, const std::string& layer, const char* t
 }
 
 Eigen::Vector2d DxfDrawing::placed(const Eigen::Vector2d& p) {
-  const Eigen::Vector2d place = origin_ + p;
+  Eigen::Vector2d place = origin_ + p;
   frame_.extents.add(place);
   return place;
 }

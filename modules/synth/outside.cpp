@@ -63,7 +63,7 @@ class Outside {
                              ground_ - 0.08 * random_.uniform());
     for (int i = 0; i < cells; ++i)
       for (int k = 0; k < cells; ++k) {
-        const auto c = static_cast<std::size_t>(i * (cells + 1) + k);
+        const auto c = static_cast<std::size_t>(i) * (cells + 1) + static_cast<std::size_t>(k);
         world_.add({corners[c], corners[c + cells + 1], corners[c + 1]}, label_, grass);
         world_.add({corners[c + cells + 1], corners[c + cells + 2], corners[c + 1]}, label_, grass);
       }

@@ -116,7 +116,7 @@ V Scanner::direction_of(const Station& station, double azimuth, Random& random) 
   }
   for (;;) {  // the carrier stands behind the device
     const double z = random.uniform(-1, 1), angle = random.uniform(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
-    const V direction(r * std::cos(angle), r * std::sin(angle), z);
+    V direction(r * std::cos(angle), r * std::sin(angle), z);
     if (z > 0.5 || direction.head<2>().dot(station.heading.head<2>()) > -0.8 * r) return direction;
   }
 }

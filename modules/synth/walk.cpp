@@ -113,7 +113,8 @@ class StoreyGrid {
   }
 
   void measure(int i, const std::vector<std::pair<Ring2, double>>& floors, const TriangleTree& obstacles) {
-    const Eigen::Vector2d p = low_ + cell * Eigen::Vector2d(i % columns_ + 0.5, i / columns_ + 0.5);
+    const int column = i % columns_, row = i / columns_;
+    const Eigen::Vector2d p = low_ + cell * Eigen::Vector2d(column + 0.5, row + 0.5);
     for (const auto& [ring, z] : floors) {
       if (!inside(ring, p)) continue;
       const V place(p.x(), p.y(), z + carried);
