@@ -96,14 +96,15 @@ Rectangle Building::on_wall(int face, const Eigen::Vector2d& centre, double widt
   return {u - width / 2, u + width / 2, bottom, top};
 }
 
-void Building::cut(Face& face, const Rectangle& rectangle) {
+void Building::cut(Face& face, const Ring2& hole_ring) {
   Polygon polygon, hole;
   for (std::size_t i = 0; i < face.rings.size(); ++i) {
     if (i > 0) polygon.inners().emplace_back();
     auto& ring = i == 0 ? polygon.outer() : polygon.inners().back();
     for (const auto& p : face.rings[i]) ring.emplace_back(p.x(), p.y());
   }
-  for (const auto& p : corners_of(rectangle)) hole.outer().emplace_back(p.x(), p.y());
+  for (const auto& p : hole_ring) hole.outer().emplace_back(p.x(), p.y());
+  bg::correct(hole);
   if (!bg::covered_by(hole, polygon))
     throw Error("an opening does not fit into its wall, floor or ceiling",
                 "make the scene larger or the opening smaller, so that openings lie in their faces and apart");
@@ -140,8 +141,8 @@ void Building::pierce(const std::string& kind, int face_a, const Rectangle& rect
     far = {std::min(far.left, b.u.dot(p)), std::max(far.right, b.u.dot(p)), std::min(far.bottom, b.v.dot(p)),
            std::max(far.top, b.v.dot(p))};
   }
-  cut(faces_[face_a], rectangle);
-  cut(faces_[face_b], far);
+  cut(faces_[face_a], corners_of(rectangle));
+  cut(faces_[face_b], corners_of(far));
   note_opening(faces_[face_a], rectangle);
   note_opening(faces_[face_b], far);
   add_reveal(opening.outline, depth, false);
@@ -152,10 +153,33 @@ void Building::pierce_outside(const std::string& kind, int face_a, const Rectang
                               bool closed) {
   TrueOpening opening = opening_of(kind, face_a, rectangle);
   opening.thickness = thickness;
-  cut(faces_[face_a], rectangle);
+  cut(faces_[face_a], corners_of(rectangle));
   note_opening(faces_[face_a], rectangle);
   add_reveal(opening.outline, -thickness * faces_[face_a].normal, closed);
   scene_.truth.openings.push_back(opening);
+}
+
+void Building::cut_out(int face, const std::vector<Eigen::Vector3d>& ring) {
+  Face& from = faces_[static_cast<std::size_t>(face)];
+  Ring2 local;
+  for (const auto& p : ring) local.emplace_back(from.u.dot(p), from.v.dot(p));
+  cut(from, local);
+}
+
+void Building::leave_out(int room, const Ring2& ring) {
+  Eigen::Vector2d low = ring.front(), high = low;
+  for (const auto& p : ring) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  occupy(room, {(low + high) / 2, (high - low) / 2, 0, 100});
+}
+
+void Building::hang(const std::string& name, int face, const Rectangle& rectangle, const Colour& colour) {
+  const Face& on = faces_[static_cast<std::size_t>(face)];
+  std::vector<Eigen::Vector3d> corners;
+  for (const auto& p : corners_of(rectangle)) corners.push_back(on.at(p) + 0.01 * on.normal);
+  add_polygon(SimulatedScene::object_id(static_cast<std::size_t>(add_object(name))), corners, colour);
 }
 
 // Doors want their way free, windows no tall furniture before them.

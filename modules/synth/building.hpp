@@ -39,6 +39,13 @@ class Building {
   void pierce_outside(const std::string& kind, int face_a, const Rectangle& rectangle, double thickness,
                       bool closed = false);
 
+  /// Cuts a hole that is no opening through a face: where a column or a box stands. `ring`: on the face, any direction.
+  void cut_out(int face, const std::vector<Eigen::Vector3d>& ring);
+  /// Keeps furniture and scanners out of the box around a part of the room's plan.
+  void leave_out(int room, const Ring2& ring);
+  /// A rectangle on a face, 1 cm before it, as an object (a mirror, say).
+  void hang(const std::string& name, int face, const Rectangle& rectangle, const Colour& colour);
+
   /// A thing that is no structure. Returns the number that add_box and the others want.
   int add_object(const std::string& name);
   /// A box on a turned frame: local x, y about `at` turned by yaw (radians), z from `low` to `high` metres.
@@ -68,6 +75,7 @@ class Building {
     Ring2 standing;                    ///< where a scanner finds headroom; empty: the whole outline
   };
   const Room& room(int index) const { return rooms_[index]; }
+  const GroundTruth& truth() const { return scene_.truth; }
 
   /// Triangulates the faces, places scanners (1.5 m above each room's floor, up to 8 per room).
   SimulatedScene finish();
@@ -80,7 +88,7 @@ class Building {
     int room;
     Eigen::Vector3d at(const Eigen::Vector2d& p) const;
   };
-  void cut(Face& face, const Rectangle& rectangle);
+  void cut(Face& face, const Ring2& hole_ring);
   void add_reveal(const std::vector<Eigen::Vector3d>& front, const Eigen::Vector3d& depth, bool closed);
   void note_opening(const Face& face, const Rectangle& rectangle);
   TrueOpening opening_of(const std::string& kind, int face, const Rectangle& rectangle) const;

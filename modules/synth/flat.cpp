@@ -28,6 +28,17 @@ Flat::Out Flat::run(const In& /*in*/, const Params& p, Context& context) {
   // In the corner of the wall to the study and the outer one.
   if (p.built_in > 0) add_wardrobe(b, bedroom, north, {w, right}, p.built_in, h - p.ceiling_step);
   Random random = context.random();
+  if (p.mirror) {
+    const int wall = b.wall_of(bedroom, east);
+    b.hang("mirror", wall, b.on_wall(wall, {w, 0.5 * right}, 0.8, 0.3, 2.0), {200, 206, 210});
+    b.limit_height(bedroom, {{w - 0.3, 0.5 * right}, {0.3, 0.4}, 0, 0.3});
+  }
+  if (p.curtains) add_curtains(b);
+  if (p.door_leaves) add_door_leaves(b, random);
+  if (p.shelves > 0)
+    for (const auto& [room, height] :
+         {std::pair{living, h}, {kitchen, h + p.ceiling_step}, {bedroom, h - p.ceiling_step}, {study, h}})
+      line_walls(b, room, p.shelves, height, random);
   furnish(b, living, RoomUse::living, p.furniture, h, random);
   furnish(b, kitchen, RoomUse::kitchen, p.furniture, h, random);
   furnish(b, bedroom, RoomUse::bedroom, p.furniture, h - p.ceiling_step, random);

@@ -27,6 +27,10 @@ struct Flat {
     double outer_wall = 0.3;
     double built_in = 0;
     double furniture = 1.0;
+    double shelves = 0;
+    bool curtains = false;
+    bool door_leaves = false;
+    bool mirror = false;
   };
   static constexpr auto inputs = std::tuple{};
   static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The flat: z up, metres.")};
@@ -41,6 +45,11 @@ struct Flat {
       param(&Params::built_in, "built_in", metres, within(0, 10),
             "Length of a wardrobe, 0.6 m deep and up to the ceiling, along the bedroom's wall to the study; 0: none."),
       furniture_param<Params>(),
+      param(&Params::shelves, "shelves", ratio, within(0, 1),
+            "Share of the walls that shelves and cupboards of almost the room's height cover, where they can."),
+      param(&Params::curtains, "curtains", "Whether curtains hang before the windows."),
+      param(&Params::door_leaves, "door_leaves", "Whether the doors between rooms have leaves, which stand open."),
+      param(&Params::mirror, "mirror", "Whether a large mirror hangs in the bedroom."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -207,6 +207,30 @@ void furnish(Building& building, int room, RoomUse use, double density, double c
   }
 }
 
+void line_walls(Building& building, int room, double share, double ceiling, Random& random) {
+  constexpr double width = 0.9, gap = 0.01;
+  const Ring2 outline = building.room(room).outline;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Eigen::Vector2d &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    const Eigen::Vector2d along = (b - a).normalized(), inwards(-along.y(), along.x());
+    for (double u = 0.05; u + width < (b - a).norm() - 0.05; u += width + 0.02) {
+      const bool closed = random.uniform() < 0.3, wanted = random.uniform() < share;
+      const double height = ceiling - random.uniform(0.05, 0.4), depth = closed ? 0.45 : 0.3;
+      const Footprint place{a + along * (u + width / 2) + inwards * (gap + depth / 2),
+                            {width / 2, depth / 2},
+                            std::atan2(along.y(), along.x()),
+                            height};
+      Footprint within = place;  // its neighbours touch it almost
+      within.half -= Eigen::Vector2d(0.05, 0);
+      if (!wanted || !is_free(building.room(room), within)) continue;
+      const Frame frame{building, building.add_object(closed ? "cupboard" : "shelf"), place.centre, place.yaw,
+                        building.room(room).floor_height};
+      (closed ? build_block : build_shelf)(frame, width, depth, height);
+      building.occupy(room, place);
+    }
+  }
+}
+
 void add_wardrobe(Building& building, int room, int side, const Eigen::Vector2d& corner, double length, double height) {
   constexpr double depth = 0.6;
   const auto& outline = building.room(room).outline;

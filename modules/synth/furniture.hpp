@@ -15,4 +15,15 @@ void furnish(Building& building, int room, RoomUse use, double density, double c
 /// is longer than the wall, or stands in a door's way or before a window.
 void add_wardrobe(Building& building, int room, int side, const Eigen::Vector2d& corner, double length, double height);
 
+/// Shelves and cupboards side by side along the walls, wherever doors and windows leave room: on `share` of the places,
+/// up to 5 to 40 cm below the ceiling.
+void line_walls(Building& building, int room, double share, double ceiling, Random& random);
+
+/// Two waving curtains before each window of the building so far, from above it down to 5 cm above the floor, each over
+/// a third of the window and 20 cm of the wall.
+void add_curtains(Building& building);
+
+/// A leaf in each door between rooms, standing open by 70 to 88 degrees into the first room.
+void add_door_leaves(Building& building, Random& random);
+
 }  // namespace atrium::synth

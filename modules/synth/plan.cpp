@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace atrium::synth {
 namespace {
@@ -22,6 +23,12 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() 
 bool segments_cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
                     const Eigen::Vector2d& d) {
   return cross(b - a, c - a) * cross(b - a, d - a) < 0 && cross(d - c, a - c) * cross(d - c, b - c) < 0;
+}
+
+// Without their last digits, so that corners which mirror each other stand at exactly one height.
+Eigen::Vector2d rounded(const Eigen::Vector2d& p) {
+  constexpr double step = 1e-12;
+  return {std::round(p.x() / step) * step, std::round(p.y() / step) * step};
 }
 
 struct Candidates {
@@ -142,6 +149,36 @@ double distance_to_border(const Ring2& ring, const Eigen::Vector2d& p) {
   for (std::size_t i = 0; i < ring.size(); ++i)
     least = std::min(least, distance_to_segment(ring[i], ring[(i + 1) % ring.size()], p));
   return least;
+}
+
+Ring2 inset(const Ring2& ring, const std::vector<double>& by) {
+  const std::size_t n = ring.size();
+  const auto along = [&](std::size_t i) { return Eigen::Vector2d((ring[(i + 1) % n] - ring[i]).normalized()); };
+  Ring2 result;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t before = (i + n - 1) % n;
+    const Eigen::Vector2d d = along(before), e = along(i);
+    const Eigen::Vector2d p = ring[i] + by[before] * Eigen::Vector2d(-d.y(), d.x()),
+                          q = ring[i] + by[i] * Eigen::Vector2d(-e.y(), e.x());
+    result.push_back(rounded(p + d * (cross(q - p, e) / cross(d, e))));
+  }
+  return result;
+}
+
+void set_back(Ring2& ring, std::size_t side, double from, double to, double depth) {
+  const Eigen::Vector2d a = ring[side], along = (ring[(side + 1) % ring.size()] - a).normalized(),
+                        inwards = depth * Eigen::Vector2d(-along.y(), along.x());
+  const Ring2 corners{a + from * along, a + from * along + inwards, a + to * along + inwards, a + to * along};
+  ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(side) + 1, corners.begin(), corners.end());
+}
+
+Ring2 regular_polygon(const Eigen::Vector2d& centre, double radius, int corners) {
+  Ring2 ring;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / corners;
+    ring.push_back(rounded(centre + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle))));
+  }
+  return ring;
 }
 
 Ring2 scanner_places(const Ring2& room, const std::vector<Footprint>& furniture, std::size_t count) {

@@ -24,6 +24,15 @@ bool inside(const Ring2& ring, const Eigen::Vector2d& p);
 bool inside(const Ring2& ring, const Footprint& footprint);
 double distance_to_border(const Ring2& ring, const Eigen::Vector2d& p);
 
+/// The ring with side i (from corner i to the next) moved inwards by by[i], outwards where that is negative. No two
+/// neighbouring sides may be parallel.
+Ring2 inset(const Ring2& ring, const std::vector<double>& by);
+/// Moves the part of a side between `from` and `to` metres from its start inwards by `depth` (a chimney breast), or
+/// outwards if that is negative (a niche). Sides after it are counted four further.
+void set_back(Ring2& ring, std::size_t side, double from, double to, double depth);
+/// A regular polygon, its first corner at angle 0.
+Ring2 regular_polygon(const Eigen::Vector2d& centre, double radius, int corners);
+
 /// Up to `count` places for a scanner: the first has most room around it; each further one sees most of the outline
 /// that those before do not see, is as far as may be from them, and has 0.45 m around it (0.25 m, if only so a second
 /// one is found). Deterministic; at least one unless the ring is thinner than the 0.2 m raster.

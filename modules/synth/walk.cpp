@@ -1,6 +1,6 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <queue>
 #include <set>
@@ -44,12 +44,18 @@ class StoreyGrid {
   }
 
   const V& place(int i) const { return places_[static_cast<std::size_t>(i)]; }
-  int nearest(const V& p) const {
+  struct Ways {
+    std::vector<double> cost;
+    std::vector<int> from;
+  };
+  /// The free cell nearest to a place, among those that `ways` lead to, if given; −1: none.
+  int nearest(const V& p, const Ways* ways = nullptr) const {
     int best = -1;
     double least = unreachable;
     for (int i = 0; i < std::ssize(places_); ++i) {
-      if (clear_[static_cast<std::size_t>(i)] < clearance) continue;
-      const double d = (place(i) - p).squaredNorm();
+      const auto k = static_cast<std::size_t>(i);
+      if (clear_[k] < clearance || (ways != nullptr && ways->cost[k] == unreachable)) continue;
+      const double d = (places_[k] - p).squaredNorm();
       if (d < least) {
         least = d;
         best = i;
@@ -58,10 +64,6 @@ class StoreyGrid {
     return best;
   }
 
-  struct Ways {
-    std::vector<double> cost;
-    std::vector<int> from;
-  };
   /// Ways to everywhere, rather through the middle of rooms and doors than along walls.
   Ways ways_from(int start) const {
     Ways ways{std::vector<double>(places_.size(), unreachable), std::vector<int>(places_.size(), -1)};
@@ -91,7 +93,7 @@ class StoreyGrid {
  private:
   static void add_passage(const SimulatedScene& scene, const TrueOpening& opening, int storey,
                           std::vector<std::pair<Ring2, double>>& floors) {
-    if (opening.room_a < 0 || opening.room_b < 0 || opening.kind == "slab") return;
+    if (opening.room_a < 0 || opening.room_b < 0 || opening.kind != "door") return;
     const auto &a = scene.truth.rooms[static_cast<std::size_t>(opening.room_a)],
                &b = scene.truth.rooms[static_cast<std::size_t>(opening.room_b)];
     if (a.storey != storey && b.storey != storey) return;
@@ -134,71 +136,104 @@ class StoreyGrid {
 // Goes from target to target, always to the nearest that is left.
 class Walker {
  public:
-  Walker(const SimulatedScene& scene, const TriangleTree& obstacles) {
+  Walker(const SimulatedScene& scene, const TriangleTree& obstacles) : obstacles_(obstacles) {
     std::set<int> storeys;
     for (const auto& room : scene.truth.rooms) storeys.insert(room.storey);
     for (const int storey : storeys) grids_.emplace_back(scene, storey, obstacles);
   }
 
-  std::vector<V> visit(std::vector<V> targets) {
-    std::vector<V> path{targets.front()};
+  std::vector<V> visit(const std::vector<V>& places) {
+    std::vector<Target> targets;
+    for (const auto& place : places) {
+      const Target target = target_at(place);
+      if (target.cell < 0) continue;
+      // What is far from every floor's cells is on stairs: it leads from storey to storey.
+      (target.off > 0.5 ? stairs_ : targets).push_back(target);
+    }
+    if (targets.empty()) return {places.front()};
+    at_ = targets.front();
+    path_ = {grid().place(at_.cell)};
     targets.erase(targets.begin());
     while (!targets.empty()) {
-      const auto [grid, start] = cell_at(path.back());
-      if (grid < 0) return path;
-      const auto ways = grids_[static_cast<std::size_t>(grid)].ways_from(start);
-      const std::size_t next = nearest(targets, grid, ways, path.back());
-      go(path, targets[next], grid, ways);
+      const auto ways = grid().ways_from(at_.cell);
+      const std::size_t next = nearest(targets, ways);
+      if (cost(targets[next], ways) < unreachable)
+        go(targets[next].cell, ways);
+      else
+        climb(targets[next], ways);
+      at_ = targets[next];
       targets.erase(targets.begin() + static_cast<std::ptrdiff_t>(next));
     }
-    return path;
+    return path_;
   }
 
  private:
-  // The grid whose free cell is nearest, and the cell.
-  std::pair<int, int> cell_at(const V& place) const {
-    std::pair<int, int> best{-1, -1};
-    double least = unreachable;
+  struct Target {
+    V place;
+    int grid = -1, cell = -1;
+    double off = unreachable;  // from the cell
+  };
+  const StoreyGrid& grid() const { return grids_[static_cast<std::size_t>(at_.grid)]; }
+
+  Target target_at(const V& place) const {
+    Target best{place};
     for (int g = 0; g < std::ssize(grids_); ++g) {
       const auto& grid = grids_[static_cast<std::size_t>(g)];
       const int i = grid.nearest(place);
-      if (i < 0 || (grid.place(i) - place).norm() >= least) continue;
-      least = (grid.place(i) - place).norm();
-      best = {g, i};
+      if (i < 0 || (grid.place(i) - place).norm() >= best.off) continue;
+      best = {place, g, i, (grid.place(i) - place).norm()};
     }
     return best;
   }
-  std::size_t nearest(const std::vector<V>& targets, int grid, const StoreyGrid::Ways& ways, const V& from) const {
+  double cost(const Target& target, const StoreyGrid::Ways& ways) const {
+    return target.grid == at_.grid ? cell * ways.cost[static_cast<std::size_t>(target.cell)] : unreachable;
+  }
+  // What lies on another storey or behind a shut door comes last.
+  std::size_t nearest(const std::vector<Target>& targets, const StoreyGrid::Ways& ways) const {
     std::size_t best = 0;
     double least = unreachable;
     for (std::size_t i = 0; i < targets.size(); ++i) {
-      const auto [g, at] = cell_at(targets[i]);
-      // What lies on another storey or behind a shut door comes last.
-      double cost = g == grid && at >= 0 ? cell * ways.cost[static_cast<std::size_t>(at)] : unreachable;
-      if (cost == unreachable) cost = 1e3 + (targets[i] - from).norm();
-      if (cost < least) {
-        least = cost;
-        best = i;
-      }
+      double far = cost(targets[i], ways);
+      if (far == unreachable) far = 1e3 + (targets[i].place - path_.back()).norm();
+      if (far >= least) continue;
+      least = far;
+      best = i;
     }
     return best;
   }
-  void go(std::vector<V>& path, const V& target, int grid, const StoreyGrid::Ways& ways) const {
-    const auto [g, at] = cell_at(target);
+  void go(int to, const StoreyGrid::Ways& ways) {
     std::vector<V> back;
-    if (g == grid)
-      for (int i = at; i >= 0; i = ways.from[static_cast<std::size_t>(i)])
-        back.push_back(grids_[static_cast<std::size_t>(grid)].place(i));
-    path.insert(path.end(), back.rbegin(), back.rend());
-    if ((target - path.back()).norm() > 0.5) path.push_back(target);  // up the stairs
+    for (int i = to; i >= 0; i = ways.from[static_cast<std::size_t>(i)]) back.push_back(grid().place(i));
+    path_.insert(path_.end(), back.rbegin(), back.rend());
+  }
+  // Over the first stairs that both storeys see; without stairs the walk goes on there as if begun anew.
+  void climb(const Target& target, const StoreyGrid::Ways& ways) {
+    const auto& other = grids_[static_cast<std::size_t>(target.grid)];
+    const auto onwards = other.ways_from(target.cell);
+    for (const auto& step : stairs_) {
+      const int foot = grid().nearest(step.place, &ways), head = other.nearest(step.place, &onwards);
+      if (foot < 0 || head < 0) continue;
+      const V &below = grid().place(foot), &above = other.place(head);
+      if (obstacles_.blocked(below, step.place - below, 1) || obstacles_.blocked(step.place, above - step.place, 1))
+        continue;
+      go(foot, ways);
+      path_.push_back(step.place);
+      for (int i = head; i >= 0; i = onwards.from[static_cast<std::size_t>(i)]) path_.push_back(other.place(i));
+      return;
+    }
+    path_.push_back(other.place(target.cell));
   }
 
+  const TriangleTree& obstacles_;
   std::vector<StoreyGrid> grids_;
+  std::vector<Target> stairs_;
+  Target at_;
+  std::vector<V> path_;
 };
 
-// Rounds corners off, then takes a place every 10 cm.
-std::vector<V> evenly(const std::vector<V>& path) {
-  constexpr double gap = 0.5;  // longer steps are jumps or stairs
+// Rounds corners off, then takes a place every 10 cm; where something is in the way it goes on behind that.
+std::vector<V> evenly(const std::vector<V>& path, const TriangleTree& obstacles) {
+  constexpr double gap = 0.5;  // longer steps are stairs, or lead nowhere
   std::vector<V> smooth = path;
   for (std::size_t i = 2; i + 2 < path.size(); ++i) {
     bool near = true;
@@ -210,9 +245,12 @@ std::vector<V> evenly(const std::vector<V>& path) {
     if (near) smooth[i] = sum / 5;
   }
   std::vector<V> places{smooth.front()};
-  for (std::size_t i = 1; i < smooth.size(); ++i)
+  for (std::size_t i = 1; i < smooth.size(); ++i) {
+    const V step = smooth[i] - smooth[i - 1];
+    if (step.norm() > gap && obstacles.blocked(smooth[i - 1], step, 1)) places.push_back(smooth[i]);
     while ((smooth[i] - places.back()).norm() >= spacing)
       places.push_back(places.back() + spacing * (smooth[i] - places.back()).normalized());
+  }
   return places;
 }
 
@@ -244,7 +282,7 @@ std::vector<Station> walk(const SimulatedScene& scene, const TriangleTree& obsta
   std::vector<V> targets;
   for (const auto& tripod : tripods(scene, params, random)) targets.push_back(tripod.place);
   if (targets.empty()) return {};
-  const auto places = evenly(Walker(scene, obstacles).visit(std::move(targets)));
+  const auto places = evenly(Walker(scene, obstacles).visit(targets), obstacles);
   const SlowDirection direction(random);
   std::vector<Station> stations;
   for (std::size_t i = 0; i < places.size(); ++i) {

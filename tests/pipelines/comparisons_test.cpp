@@ -36,7 +36,8 @@ TEST(Comparisons, EveryMethodFitsEveryScene) {
 TEST(Comparisons, EveryTableCanBePlanned) {
   for (const auto& table : files_in("")) {
     if (table.starts_with("base")) continue;
-    if (table.find("headset") != std::string::npos && !fs::exists(scans)) continue;
+    const bool real = table.find("headset") != std::string::npos || table.find("real") != std::string::npos;
+    if (real && !fs::exists(scans)) continue;
     const auto result = atrium({"sweep", "plan", "pipelines/comparisons/" + table, "--json"});
     ASSERT_EQ(result.exit_code, 0) << table << "\n" << result.err;
     EXPECT_GE(nlohmann::json::parse(result.out).at("variants").size(), 6U) << table;
