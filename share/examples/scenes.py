@@ -88,7 +88,7 @@ def row(result, seconds, out):
     """The row's cells, and whether each true room is found and no other."""
     manifest = out / 'manifest.json'
     nodes = json.loads(manifest.read_text())['nodes'] if manifest.exists() else []
-    warnings = sum(len(node.get('warnings', [])) for node in nodes)
+    warnings = sum(len(node.get('warnings', [])) for node in nodes if node['node'].startswith('model/'))
     if result.returncode:
         lines = [line for line in result.stderr.splitlines() if 'error' in line]
         said = lines[-1].replace('|', '/') if lines else 'exit code %d' % result.returncode

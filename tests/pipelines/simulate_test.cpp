@@ -61,8 +61,8 @@ TEST_P(Simulate, ScanAndTruthAreWrittenAndTheTruthIsPerfect) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Simulate,
-                         testing::Values("room", "flat", "two_storeys", "attic", "office", "polygon_room",
-                                         "round_room"),
+                         testing::Values("room", "flat", "two_storeys", "attic", "office", "polygon_room", "round_room",
+                                         "split_level", "raised_room", "tall_building"),
                          [](const auto& scene) { return scene.param; });
 
 }  // namespace
