@@ -197,7 +197,7 @@ Gravity::Out Gravity::run(const In& in, const Params& params, Context& context) 
     throw Error("there is no plane, so nothing tells what is level", "leave the frame as it is with align.none");
   const std::vector<FacedArea> faces = faces_of(*in.planes, context);
   const bool forced = !given.isZero(0);
-  const bool y_up = params.habit == Habit::y;
+  const bool y_up = params.habit == Habit::automatic ? in.planes->cloud->y_up : params.habit == Habit::y;
   const Eigen::Vector3d up = forced ? refined_vertical(faces, given.normalized(), near_axis)
                                     : found_up(*in.planes, faces, y_up, params.prior, context);
   const Transform turn = upright_turn(up);

@@ -24,7 +24,7 @@ namespace atrium::align {
 struct Gravity {
   static constexpr std::string_view type = "align.gravity";
   static constexpr std::string_view summary = "Finds out which way is up, and turns the scene upright.";
-  enum class Habit { z, y };
+  enum class Habit { automatic, z, y };
   struct In {
     Input<PlanePrimitives> planes;
     OptionalInput<Transform> transform;
@@ -35,7 +35,7 @@ struct Gravity {
   };
   struct Params {
     std::vector<double> up{0, 0, 0};
-    Habit habit = Habit::z;
+    Habit habit = Habit::automatic;
     double prior = 1.0;
   };
   static constexpr auto inputs =
@@ -50,8 +50,9 @@ struct Gravity {
           "What points roughly upwards in the input's frame, of any length: then only the tilt (15 degrees at most) is "
           "found. [0, 0, 0]: find out. [0, 0, 1]: z, as most scanners write; [0, 1, 0]: y, as phones, headsets and "
           "game engines do; [0, -1, 0]: a depth camera."),
-      param(&Params::habit, "habit", {{"z", Habit::z}, {"y", Habit::y}},
-            "What files of this kind usually have up, where the scan does not tell: z, or y (OBJ and glTF of phones)."),
+      param(&Params::habit, "habit", {{"auto", Habit::automatic}, {"z", Habit::z}, {"y", Habit::y}},
+            "What files of this kind usually have up, where the scan does not tell: z, or y. auto: as the cloud says "
+            "whose file it is (y for OBJ and glTF, else z)."),
       param(&Params::prior, "prior", unitless, within(0.0, 10.0),
             "Weight of what files usually are, against what the scan shows. 0: only the scan counts.")};
   static Out run(const In& in, const Params& params, Context& context);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include "modules/io/json_text.hpp"
@@ -91,6 +93,14 @@ Json opening_to_json(const BuildingOpening& opening, const Eigen::Vector3d& up) 
   return json;
 }
 
+std::string unit_name(double metres) {
+  constexpr std::array<std::pair<double, const char*>, 5> known{
+      {{1.0, "m"}, {0.01, "cm"}, {0.001, "mm"}, {0.0254, "in"}, {0.3048, "ft"}}};
+  for (const auto& [value, name] : known)
+    if (std::abs(metres / value - 1) < 1e-9) return name;
+  return fmt::format("{} m", metres);
+}
+
 /// A list of places that may be empty.
 std::vector<Eigen::Vector3d> places_of(const JsonField& field) {
   std::vector<Eigen::Vector3d> result;
@@ -166,10 +176,11 @@ std::int32_t last_of(const JsonField& list) { return static_cast<std::int32_t>(l
 
 }  // namespace
 
-std::string building_to_json(const Building& building, const Eigen::Vector3d& up) {
+std::string building_to_json(const Building& building, const Eigen::Vector3d& up, std::optional<double> scan_unit) {
   check(building);
   if (!up.allFinite()) throw Error("what is up in the building has a number that is not finite");
   Json root{{"atrium_building", 1}, {"units", "m"}, {"up", json_of(up)}, {"origin", json_of(building.origin)}};
+  if (scan_unit) root["scan_unit"] = {{"name", unit_name(*scan_unit)}, {"metres", *scan_unit}};
   if (building.confidence >= 0) {
     root["confidence"] = building.confidence;
     root["doubts"] = building.doubts;

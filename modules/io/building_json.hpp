@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "modules/io/json_fields.hpp"
@@ -6,9 +7,11 @@
 
 namespace atrium::io {
 
-/// building.json, as io.write_building documents it. `up` is what is up in the building's coordinates.
+/// building.json, as io.write_building documents it. `up` is what is up in the building's coordinates; `scan_unit`,
+/// metres per unit of the scan's file, is written if it is given.
 /// Throws Error for numbers that are not finite, and for indices of what is not there.
-std::string building_to_json(const Building& building, const Eigen::Vector3d& up);
+std::string building_to_json(const Building& building, const Eigen::Vector3d& up,
+                             std::optional<double> scan_unit = std::nullopt);
 
 struct ReadBack {
   Building building;

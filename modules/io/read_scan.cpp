@@ -37,6 +37,11 @@ void hint_at_unit(const std::string& path, const Cloud& cloud, const Context& co
                              path, extent.x(), extent.y(), extent.z()));
 }
 
+bool usually_y_up(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".obj" || extension == ".glb" || extension == ".gltf";
+}
+
 double metres_per(ReadScan::Unit unit) {
   switch (unit) {
     case ReadScan::Unit::centimetre: return 0.01;
@@ -52,9 +57,8 @@ double unit_of(const RawGeometry& geometry, const ReadScan::Params& params, cons
                const Context& context) {
   if (params.scale != 1.0) return 1.0;
   const std::string extension = extension_of(geometry.path);
-  const auto is = [&](std::string_view known) { return extension == known; };
-  if (is(".glb") || is(".gltf") || is(".e57")) return 1.0;  // metres by their rules
-  const UnitGuess guess = guess_unit(unscaled.points, is(".obj"), context);
+  if (extension == ".glb" || extension == ".gltf" || extension == ".e57") return 1.0;  // metres by their rules
+  const UnitGuess guess = guess_unit(unscaled.points, usually_y_up(geometry.path), context);
   if (!guess.warning.empty())
     context.warn(fmt::format("{}: {}", geometry.path, guess.warning));
   else
@@ -114,6 +118,8 @@ ReadScan::Out ReadScan::run(const In& /*in*/, const Params& params, Context& con
     const double unit = unit_of(geometry, params, cloud, context);
     if (unit != 1.0) cloud = decoded(scale *= unit);
   }
+  cloud.unit = scale;
+  cloud.y_up = usually_y_up(path);
   set_sensor(geometry, params, scale, cloud);
   hint_at_unit(path, cloud, context);
   warn_of_duplicates(path, cloud, context);

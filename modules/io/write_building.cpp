@@ -6,11 +6,12 @@ namespace atrium::io {
 
 WriteBuilding::Out WriteBuilding::run(const In& in, const Params& params, Context& context) {
   std::string text;
+  const std::optional<double> unit = in.scan ? std::optional(in.scan->unit) : std::nullopt;
   if (in.transform) {
     const Transform back = inverse(*in.transform);
-    text = building_to_json(transformed(*in.building, back), back.rotation * Eigen::Vector3d::UnitZ());
+    text = building_to_json(transformed(*in.building, back), back.rotation * Eigen::Vector3d::UnitZ(), unit);
   } else {
-    text = building_to_json(*in.building, Eigen::Vector3d::UnitZ());
+    text = building_to_json(*in.building, Eigen::Vector3d::UnitZ(), unit);
   }
   const auto target = context.output(params.path.path);
   AtomicFile file(target);

@@ -1,13 +1,14 @@
 #pragma once
 #include "graph/api/node.hpp"
 #include "modules/types/building.hpp"
+#include "modules/types/cloud.hpp"
 
 namespace atrium::io {
 
 /// Writes a building as JSON (share/schema/building.schema.json); io.read_building reads it back, bit by bit.
 ///
 ///     {"atrium_building": 1, "units": "m", "up": [0, 0, 1], "origin": [x, y, z],
-///      "confidence": 0.9, "doubts": [text, …],
+///      "scan_unit": {"name": "ft", "metres": 0.3048}, "confidence": 0.9, "doubts": [text, …],
 ///      "storeys":  [{"elevation": 0, "height": 2.5}, …],
 ///      "rooms":    [{"name": "room 1", "storey": 0, "area": m², "height": m, "volume": m³, "faces": [0, …],
 ///                    "outline": [place, …], "holes": [[place, …], …],
@@ -29,6 +30,9 @@ namespace atrium::io {
 /// file: they follow from the rest. `holes` are left out where there are none, `confidence` (0 to
 /// 1) and `doubts` where nobody has judged the rooms (layout.confidence does).
 ///
+/// All lengths are in metres. `scan_unit` (with `scan`) says in which unit the scan's file was read: its name, and
+/// metres per unit; places in the file are places here divided by that.
+///
 /// Errors: numbers that are not finite, indices of what is not there; a folder that cannot be written. Then no file is
 /// there.
 struct WriteBuilding {
@@ -37,6 +41,7 @@ struct WriteBuilding {
   struct In {
     Input<Building> building;
     OptionalInput<Transform> transform;
+    OptionalInput<Cloud> scan;
   };
   struct Out {};
   struct Params {
@@ -44,7 +49,8 @@ struct WriteBuilding {
   };
   static constexpr auto inputs =
       std::tuple{port(&In::building, "building", "What is written."),
-                 port(&In::transform, "transform", "From the frame that is wanted to that of the building.")};
+                 port(&In::transform, "transform", "From the frame that is wanted to that of the building."),
+                 port(&In::scan, "scan", "The scan that it was made from: the unit of its file is named.")};
   static constexpr auto outputs = std::tuple{};
   static constexpr auto params = std::tuple{param(&Params::path, "path", "The JSON file.")};
   static Out run(const In& in, const Params& params, Context& context);

@@ -24,6 +24,8 @@ Cloud select(const Cloud& cloud, const std::vector<std::uint32_t>& indices) {
   result.intensities = gather(cloud.intensities, indices);
   result.source = gather(cloud.source, indices);
   result.sensors = cloud.sensors;
+  result.unit = cloud.unit;
+  result.y_up = cloud.y_up;
   return result;
 }
 

@@ -17,8 +17,8 @@ using Colour = std::array<std::uint8_t, 3>;  ///< red, green, blue
 struct Cloud {
   static constexpr std::string_view port_type = "Cloud";
   static constexpr auto members() {
-    return std::tuple{&Cloud::origin, &Cloud::points,      &Cloud::normals, &Cloud::colours,
-                      &Cloud::labels, &Cloud::intensities, &Cloud::source,  &Cloud::sensors};
+    return std::tuple{&Cloud::origin,      &Cloud::points, &Cloud::normals, &Cloud::colours, &Cloud::labels,
+                      &Cloud::intensities, &Cloud::source, &Cloud::sensors, &Cloud::unit,    &Cloud::y_up};
   }
 
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -29,6 +29,8 @@ struct Cloud {
   std::vector<float> intensities;
   std::vector<std::uint16_t> source;     ///< index into sensors; empty with one sensor: all points are its
   std::vector<Eigen::Vector3f> sensors;  ///< where the scanner stood, in the same frame as points (origin + sensor)
+  double unit = 1;    ///< metres per unit of the file that it was read from; all lengths here are metres
+  bool y_up = false;  ///< files of that format usually have y up, not z: a habit, not a fact
 
   std::size_t size() const { return points.size(); }
   bool has_normals() const { return !normals.empty(); }

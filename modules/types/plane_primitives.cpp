@@ -24,6 +24,7 @@ Cloud transformed(const Cloud& cloud, const Transform& transform) {
   result.intensities = cloud.intensities;
   result.source = cloud.source;
   result.sensors = turned(cloud.sensors, turn);
+  result.unit = cloud.unit;
   return result;
 }
 
