@@ -190,10 +190,13 @@ void add_clutter(const UprightView& view, std::array<UprightEvidence, 2>& eviden
   evidence[1].floor = -floor;
 }
 
-/// Distances between main levels that face each other, one a column; rising.
+/// Distances between main levels that face each other, one a column; rising. None if they lie over each other in few
+/// columns: a table is no ceiling.
 std::vector<double> gaps_of(const UprightView& view) {
   std::vector<double> gaps;
   constexpr double least = 0.3;  // of any unit: what is less is one surface or a step
+  constexpr double least_share = 0.2;
+  std::size_t levels = 0;
   for (std::size_t c = 0; c + 1 < view.columns().size(); ++c) {
     const Column column(view, c, true);
     double before = 0, widest = 0;
@@ -205,7 +208,9 @@ std::vector<double> gaps_of(const UprightView& view) {
       any = true;
     }
     if (widest > least) gaps.push_back(widest);
+    levels += any ? 1 : 0;
   }
+  if (static_cast<double>(gaps.size()) < least_share * static_cast<double>(levels)) gaps.clear();
   std::sort(gaps.begin(), gaps.end());
   return gaps;
 }

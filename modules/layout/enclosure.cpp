@@ -10,6 +10,7 @@ namespace {
 
 constexpr double least_seen = 0.3;  // of an edge's length: less is no wall
 constexpr double furthest = 20;     // metres
+constexpr double least_top = 0.6;   // of the storey's height: what ends lower is furniture
 constexpr int directions = 16;
 
 /// The walls of a storey in squares, seen from above.
@@ -25,7 +26,7 @@ class WallMap {
     edge_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), -1);
     for (std::size_t e = 0; e < storey.edges.size(); ++e) {
       const CellEdge& edge = storey.edges[e];
-      if (std::max(edge.face_left, edge.face_right) < least_seen) continue;
+      if (std::max(edge.face_left, edge.face_right) < least_seen || is_low(storey, edge)) continue;
       const Eigen::Vector2d &a = storey.vertices[edge.from], &b = storey.vertices[edge.to];
       const int steps = static_cast<int>(2 * (b - a).norm() / pixel_) + 1;
       for (int i = 0; i <= steps; ++i)
@@ -50,6 +51,11 @@ class WallMap {
   }
 
  private:
+  static bool is_low(const StoreyCells& storey, const CellEdge& edge) {
+    const double top = std::max(edge.top_left, edge.top_right);
+    return top < storey.floor_height + least_top * (storey.ceiling_height - storey.floor_height);
+  }
+
   std::int32_t* at(const Eigen::Vector2d& p) {
     const auto x = static_cast<std::int64_t>(std::floor((p.x() - box_.min().x()) / pixel_));
     const auto y = static_cast<std::int64_t>(std::floor((p.y() - box_.min().y()) / pixel_));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
+#include <cstdlib>
 #include <numeric>
 
 #include "modules/layout/coverage.hpp"
@@ -59,10 +60,21 @@ class Energy {
     vote(edge.left, edge.right, edge.wall_left * area);
     vote(edge.right, edge.left, edge.wall_right * area);
     const double left_inside =
-        area * (params_.smoothness * (1 - std::max(edge.wall_left, hidden_.left[index])) + params_.complexity);
+        area * (params_.smoothness *
+                    (1 - std::max(ends_room(edge.wall_left, edge.face_left, edge.top_left), hidden_.left[index])) +
+                params_.complexity);
     const double right_inside =
-        area * (params_.smoothness * (1 - std::max(edge.wall_right, hidden_.right[index])) + params_.complexity);
+        area * (params_.smoothness *
+                    (1 - std::max(ends_room(edge.wall_right, edge.face_right, edge.top_right), hidden_.right[index])) +
+                params_.complexity);
     cut_.add_pair(element(edge.left), element(edge.right), right_inside, left_inside);
+  }
+
+  /// Where no ceiling was scanned, walls end at different heights: those that are tall may end a room.
+  double ends_room(double wall, double face, double top) const {
+    constexpr double least = 0.6;  // of the storey's height
+    const bool tall = top >= storey_.floor_height + least * (storey_.ceiling_height - storey_.floor_height);
+    return !ceiling_ && tall ? std::max(wall, face) : wall;
   }
 
   void vote(std::int32_t front, std::int32_t back, double area) {
@@ -86,6 +98,39 @@ class Energy {
   HiddenWalls hidden_;
   MinCut cut_;
 };
+
+/// Cells of less than `min_detail` go to the side that surrounds most of them: no niche or pilaster is that small.
+void level_details(const StoreyCells& storey, double min_detail, std::vector<bool>& inside) {
+  constexpr double mostly = 1.5;  // times as much border with the other side as with its own
+  std::vector<std::vector<std::size_t>> edges_of(storey.cells.size());
+  for (std::size_t e = 0; e < storey.edges.size(); ++e)
+    for (const auto cell : {storey.edges[e].left, storey.edges[e].right})
+      if (cell >= 0) edges_of[static_cast<std::size_t>(cell)].push_back(e);
+  std::vector<std::size_t> small;
+  for (std::size_t i = 0; i < storey.cells.size(); ++i)
+    if (storey.cells[i].area < min_detail) small.push_back(i);
+  std::stable_sort(small.begin(), small.end(),
+                   [&](std::size_t a, std::size_t b) { return storey.cells[a].area < storey.cells[b].area; });
+  const auto has_more_of_other = [&](std::size_t cell) {
+    double same = 0, other = 0;
+    for (const auto e : edges_of[cell]) {
+      const CellEdge& edge = storey.edges[e];
+      const std::int32_t beside = edge.left == static_cast<std::int32_t>(cell) ? edge.right : edge.left;
+      const bool in = beside >= 0 && inside[static_cast<std::size_t>(beside)];
+      (in == inside[cell] ? same : other) += length_of(storey, edge);
+    }
+    return same > 0 && other > mostly * same;
+  };
+  // Each change shortens the border, so this ends.
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto cell : small) {
+      if (!has_more_of_other(cell)) continue;
+      inside[cell] = !inside[cell];
+      changed = true;
+    }
+  }
+}
 
 struct Room {
   std::size_t storey = 0;
@@ -171,7 +216,25 @@ Rooms::Out Rooms::run(const In& in, const Params& params, Context& context) {
     context.check_cancelled();
     StoreyCells& storey = out.cells.storeys[s];
     for (auto& cell : storey.cells) cell.room = -1;
-    auto found = connected(storey, s, Energy(storey, params).solve());
+    if (std::getenv("DBG")) {  // DBG
+      for (auto& c : storey.cells) {
+        Eigen::Vector2d m(0, 0);
+        for (auto k : c.corners) m += storey.vertices[k];
+        m /= c.corners.size();
+        fmt::print(stderr, "cell {:.2f} {:.2f} area {:.2f} floor {:.2f} ceil {:.2f} any {:.2f} encl {:.2f}\n", m.x(),
+                   m.y(), c.area, c.floor_cover, c.ceiling_cover, c.any_cover, c.enclosed);
+      }
+      for (auto& e : storey.edges) {
+        auto a = storey.vertices[e.from], b = storey.vertices[e.to];
+        fmt::print(
+            stderr, "edge {:.2f} {:.2f} - {:.2f} {:.2f} face {:.2f} {:.2f} wall {:.2f} {:.2f} top {:.2f} {:.2f}\n",
+            a.x(), a.y(), b.x(), b.y(), e.face_left, e.face_right, e.wall_left, e.wall_right, e.top_left, e.top_right);
+      }
+      fmt::print(stderr, "height {} {}\n", storey.floor_height, storey.ceiling_height);
+    }  // DBG
+    auto inside = Energy(storey, params).solve();
+    level_details(storey, params.min_detail, inside);
+    auto found = connected(storey, s, inside);
     fill_islands(storey, params.min_island, found);
     rooms.insert(rooms.end(), found.begin(), found.end());
   }

@@ -43,6 +43,7 @@ struct Rooms {
     double min_area = 0.8;
     double min_cover = 0.25;
     double min_island = 0.4;
+    double min_detail = 0.03;
   };
   static constexpr auto inputs = std::tuple{port(&In::cells, "cells", "Cells with their coverage.")};
   static constexpr auto outputs = std::tuple{port(&Out::cells, "cells", "The same, each with its room or none.")};
@@ -56,6 +57,8 @@ struct Rooms {
       param(&Params::min_area, "min_area", square_metres, within(0, 1e6), "Smallest room."),
       param(&Params::min_island, "min_island", ratio, within(0, 1),
             "What a room surrounds belongs to it, unless this share of the walls around it was seen: a column."),
+      param(&Params::min_detail, "min_detail", square_metres, within(0, 1),
+            "Smallest niche or pilaster, seen from above; what is smaller is evened out."),
       param(
           &Params::min_cover, "min_cover", ratio, within(0, 1),
           "Least share of a room's area seen as floor, ceiling or anything between, whichever covers most of a cell.")};
