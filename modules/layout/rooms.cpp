@@ -145,7 +145,7 @@ std::vector<Room> connected(const StoreyCells& storey, std::size_t index, const 
   constexpr double mostly = 0.5;
   for (const auto& edge : storey.edges) {
     if (edge.left < 0 || edge.right < 0) continue;
-    if (edge.wall_left > mostly && edge.wall_right > mostly) continue;  // a thin wall: both of its faces on one line
+    if (std::max(edge.wall_left, edge.wall_right) > mostly) continue;  // a wall, be it so thin or seen from one side
     const auto a = static_cast<std::size_t>(edge.left);
     const auto b = static_cast<std::size_t>(edge.right);
     if (inside[a] && inside[b]) sets.union_set(a, b);

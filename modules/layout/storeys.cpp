@@ -27,6 +27,7 @@ struct Level {
 constexpr double main_share = 0.5;        // of the largest floor: as large as one
 constexpr double least_large = 2.0;       // m²: what may be a slab at all
 constexpr double lower_ceilings = 0.5;    // metres under the main one, where no floor tells what is a ceiling
+constexpr double step = 0.25;             // metres: a floor so little higher needs no walls around it
 constexpr double least_raised = 3.0;      // m²: a smaller level surface over the floor is furniture
 constexpr double least_walled = 0.7;      // of the rim of a raised floor; a bed in a corner has half
 constexpr double least_sheltered = 0.25;  // of a floor: less of it than this is the ground outside
@@ -127,6 +128,20 @@ class Finder {
         if (low.at(x, y) && high.at(low.centre(x, y))) ++both;
     return static_cast<double>(both) * pixel_ * pixel_;
   }
+  /// Whether the floor goes on under much of it: then it is a table, or many.
+  bool stands_on(const Level& l, const Level& floor) const {
+    constexpr double much = 0.3;
+    if (&l == &floor || l.height <= floor.height + step || l.height >= floor.height + params_.min_clearance) return false;
+    const Raster high = filled(l.primitive), low = filled(floor.primitive);
+    int all = 0, both = 0;
+    for (int y = 0; y < high.height; ++y)
+      for (int x = 0; x < high.width; ++x) {
+        if (!high.at(x, y)) continue;
+        ++all;
+        both += low.at(high.centre(x, y)) ? 1 : 0;
+      }
+    return both > much * all;
+  }
   bool room_below(const Level& ceiling) const {
     return std::any_of(levels_.begin(), levels_.end(), [&](const Level& l) {
       return l.up && large(l) && ceiling.height - l.height >= params_.min_clearance &&
@@ -200,8 +215,8 @@ class Finder {
     for (const auto& l : levels_) {
       if (storey_of(l.height) != storey || l.area < params_.min_area || !is_wide(l)) continue;
       if (l.up && l.sheltered < least_sheltered) continue;
-      const bool is_floor = l.up && main_floor != nullptr &&
-                            (l.height <= ground + params_.max_step ||
+      const bool is_floor = l.up && main_floor != nullptr && !stands_on(l, *main_floor) &&
+                            (l.height <= ground + (l.raised ? params_.max_step : step) ||
                              ((l.area >= main_share * main_floor->area || l.raised) &&
                               ((main_ceiling != nullptr && main_ceiling->height - l.height >= params_.min_clearance) ||
                                has_ceiling_of_its_own(l))));
