@@ -1,6 +1,7 @@
 #include "modules/layout/heights.hpp"
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -24,8 +25,10 @@ Eigen::Vector2d middle_of(const StoreyCells& storey, const LayoutCell& cell) {
 /// One labelling: the cells of all rooms of a storey by surfaces.
 class Labelling {
  public:
-  Labelling(const StoreyCells& storey, const std::vector<CellSurface>& surfaces, const Heights::Params& params)
-      : storey_(storey), surfaces_(surfaces), params_(params) {
+  /// `slack`: heights that differ by less are one, metres.
+  Labelling(const StoreyCells& storey, const std::vector<CellSurface>& surfaces, double slack,
+            const Heights::Params& params)
+      : storey_(storey), surfaces_(surfaces), slack_(slack), params_(params) {
     for (std::size_t i = 0; i < storey.cells.size(); ++i) {
       element_.push_back(storey.cells[i].room < 0 ? -1 : static_cast<int>(cells_.size()));
       if (storey.cells[i].room >= 0) cells_.push_back(i);
@@ -54,15 +57,22 @@ class Labelling {
     }
   }
 
-  /// Where a room has a surface of its own, by room, which was not seen: others are only where they cover most.
+  /// Where a room has a surface of its own, by room, which was not seen: others are only where they cover most, and if
+  /// they cover two square metres of it.
   template <class Covers>
   void prefer(const std::map<std::int32_t, std::int32_t>& inferred, Covers covers) {
+    constexpr double least_seen = 2;                              // square metres
+    std::map<std::pair<std::int32_t, std::size_t>, double> seen;  // of a room's surface
+    for (const auto c : cells_)
+      for (const CellCover& cover : covers(storey_.cells[c]))
+        seen[{storey_.cells[c].room, static_cast<std::size_t>(cover.surface)}] += storey_.cells[c].area * cover.share;
     for (std::size_t e = 0; e < cells_.size(); ++e) {
       const LayoutCell& cell = storey_.cells[cells_[e]];
       const auto own = inferred.find(cell.room);
       for (std::size_t s = 0; s < surfaces_.size(); ++s) {
         const bool is_own = own != inferred.end() && own->second == static_cast<std::int32_t>(s);
         if (own != inferred.end() && !is_own) costs_[e][s] = cell.area;
+        if (own != inferred.end() && !is_own && seen[{cell.room, s}] < least_seen) costs_[e][s] += none;
         if (surfaces_[s].primitive < 0 && !is_own && (own != inferred.end() || is_of_a_room(inferred, s)))
           costs_[e][s] += none;
       }
@@ -75,7 +85,9 @@ class Labelling {
     }
   }
 
-  std::vector<std::int32_t> solve() {
+  /// `covers`: as in set_costs.
+  template <class Covers>
+  std::vector<std::int32_t> solve(Covers covers) {
     labels_.assign(cells_.size(), 0);
     for (std::size_t e = 0; e < cells_.size(); ++e)
       labels_[e] = static_cast<std::size_t>(std::min_element(costs_[e].begin(), costs_[e].end()) - costs_[e].begin());
@@ -85,12 +97,67 @@ class Labelling {
       for (std::size_t alpha = 0; alpha < surfaces_.size(); ++alpha) changed = expand(alpha) || changed;
       if (!changed) break;
     }
+    for (std::size_t e = 0; e < cells_.size() && absorb(covers); ++e) continue;
     std::vector<std::int32_t> result(storey_.cells.size(), -1);
     for (std::size_t e = 0; e < cells_.size(); ++e) result[cells_[e]] = static_cast<std::int32_t>(labels_[e]);
     return result;
   }
 
  private:
+  /// Cells of one surface that hang together within a room.
+  struct Patch {
+    double area = 0, seen = 0;
+    std::map<std::size_t, double> beside;  // length of the border with another surface
+  };
+
+  /// Gives the smallest patch that hardly shows its surface to the one beside it with the longest border. False: none.
+  template <class Covers>
+  bool absorb(Covers covers) {
+    constexpr double hardly = 0.25, half = 0.5, small = 2;  // shares; square metres
+    std::vector<std::size_t> rank(cells_.size()), parent(cells_.size());
+    boost::disjoint_sets<std::size_t*, std::size_t*> sets(rank.data(), parent.data());
+    for (std::size_t e = 0; e < cells_.size(); ++e) sets.make_set(e);
+    for (const auto& edge : storey_.edges)
+      if (const auto [a, b] = elements(edge); a >= 0 && label(a) == label(b))
+        sets.union_set(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    std::map<std::size_t, Patch> patches;
+    for (std::size_t e = 0; e < cells_.size(); ++e) {
+      Patch& patch = patches[sets.find_set(e)];
+      const LayoutCell& cell = storey_.cells[cells_[e]];
+      patch.area += cell.area;
+      for (const CellCover& cover : covers(cell))
+        patch.seen += cell.area * cover.share *
+                      (1 - misfit(labels_[e], static_cast<std::size_t>(cover.surface), middle_of(storey_, cell)));
+    }
+    for (const auto& edge : storey_.edges) {
+      const auto [a, b] = elements(edge);
+      if (a < 0 || label(a) == label(b)) continue;
+      const double length = (storey_.vertices[edge.to] - storey_.vertices[edge.from]).norm();
+      patches[sets.find_set(static_cast<std::size_t>(a))].beside[label(b)] += length;
+      patches[sets.find_set(static_cast<std::size_t>(b))].beside[label(a)] += length;
+    }
+    auto least = patches.end();
+    for (auto p = patches.begin(); p != patches.end(); ++p) {
+      const Patch& patch = p->second;
+      if (patch.beside.empty() || surfaces_[labels_[p->first]].primitive < 0) continue;
+      const bool in_unseen = std::any_of(patch.beside.begin(), patch.beside.end(),
+                                         [&](const auto& other) { return surfaces_[other.first].primitive < 0; });
+      const double least_seen = patch.area >= small ? hardly : in_unseen ? 2 : half;
+      if (patch.seen >= least_seen * patch.area) continue;
+      if (least == patches.end() || patch.area < least->second.area) least = p;
+    }
+    if (least == patches.end()) return false;
+    const auto& beside = least->second.beside;
+    const std::size_t to = std::max_element(beside.begin(), beside.end(), [](const auto& a, const auto& b) {
+                             return a.second < b.second;
+                           })->first;
+    for (std::size_t e = 0; e < cells_.size(); ++e)
+      if (sets.find_set(e) == least->first) labels_[e] = to;
+    return true;
+  }
+
+  std::size_t label(int element) const { return labels_[static_cast<std::size_t>(element)]; }
+
   static bool is_of_a_room(const std::map<std::int32_t, std::int32_t>& inferred, std::size_t surface) {
     return std::any_of(inferred.begin(), inferred.end(),
                        [&](const auto& own) { return own.second == static_cast<std::int32_t>(surface); });
@@ -105,7 +172,9 @@ class Labelling {
   /// How badly one surface stands for another at a place: 0 to 1.
   double misfit(std::size_t a, std::size_t b, const Eigen::Vector2d& p) const {
     constexpr double another = 0.5;  // metres
-    return a == b ? 0 : std::min(1.0, std::abs(surfaces_[a].height_at(p) - surfaces_[b].height_at(p)) / another);
+    if (a == b) return 0;
+    const double apart = std::abs(surfaces_[a].height_at(p) - surfaces_[b].height_at(p)) - slack_;
+    return std::clamp(apart / another, 0.0, 1.0);
   }
 
   /// Area of the step between two surfaces over an edge, and the border itself.
@@ -171,6 +240,7 @@ class Labelling {
 
   const StoreyCells& storey_;
   const std::vector<CellSurface>& surfaces_;
+  double slack_;
   const Heights::Params& params_;
   std::vector<std::size_t> cells_;  // element -> cell
   std::vector<int> element_;        // cell -> element
@@ -185,16 +255,16 @@ double clearance(const StoreyCells& storey, const LayoutCell& cell, const CellSu
   return ceiling.height_at(middle) - floor.height_at(middle);
 }
 
-void settle(StoreyCells& storey, const Heights::Params& params) {
-  Labelling floors(storey, storey.floors, params);
+void settle(StoreyCells& storey, double slack, const Heights::Params& params) {
+  Labelling floors(storey, storey.floors, slack, params);
   floors.set_costs(
       [](const LayoutCell& cell) -> const auto& { return cell.floors; },
       [](const LayoutCell&, std::size_t) { return false; });
-  const auto floor_of = floors.solve();
+  const auto floor_of = floors.solve([](const LayoutCell& cell) -> const auto& { return cell.floors; });
   for (std::size_t i = 0; i < storey.cells.size(); ++i) storey.cells[i].floor = floor_of[i];
   const auto inferred = infer_ceilings(storey, params.min_seen);
   const auto covers = [](const LayoutCell& cell) -> const auto& { return cell.ceilings; };
-  Labelling ceilings(storey, storey.ceilings, params);
+  Labelling ceilings(storey, storey.ceilings, slack, params);
   ceilings.set_costs(covers, [&](const LayoutCell& cell, std::size_t s) {
     const auto& floor = storey.floors[static_cast<std::size_t>(cell.floor)];
     const bool shown = std::any_of(cell.ceilings.begin(), cell.ceilings.end(), [&](const auto& c) {
@@ -203,7 +273,7 @@ void settle(StoreyCells& storey, const Heights::Params& params) {
     return !shown && clearance(storey, cell, floor, storey.ceilings[s]) < params.min_clearance;
   });
   ceilings.prefer(inferred, covers);
-  const auto ceiling_of = ceilings.solve();
+  const auto ceiling_of = ceilings.solve(covers);
   for (std::size_t i = 0; i < storey.cells.size(); ++i) storey.cells[i].ceiling = ceiling_of[i];
 }
 
@@ -211,9 +281,10 @@ void settle(StoreyCells& storey, const Heights::Params& params) {
 
 Heights::Out Heights::run(const In& in, const Params& params, Context& context) {
   Out out{*in.cells};
+  constexpr double levels_of_noise = 3;
   for (auto& storey : out.cells.storeys) {
     context.check_cancelled();
-    settle(storey, params);
+    settle(storey, levels_of_noise * out.cells.noise, params);
   }
   return out;
 }

@@ -120,7 +120,8 @@ Partition::Out Partition::run(const In& in, const Params& params, Context& conte
   const std::vector<Footprint> seen = footprints(planes, out.cells.pixel, context);
   // What the noise parts is one surface.
   constexpr double noise_levels = 3;
-  const double gap = std::max(params.min_gap, noise_levels * mean_residual(planes));
+  out.cells.noise = mean_residual(planes);
+  const double gap = std::max(params.min_gap, noise_levels * out.cells.noise);
   for (const auto& storey : storey_planes(*in.structure, seen, gap)) {
     context.check_cancelled();
     out.cells.storeys.push_back(cut_storey(storey, seen, params));

@@ -26,7 +26,8 @@ std::vector<Eigen::Vector2d> flattened(const PlanePrimitive& primitive, const Cl
   return points;
 }
 
-/// How many times wider squares a surface fills: a scan can be sparser on the ceiling than elsewhere.
+/// How many times wider squares a surface fills: a scan can be sparser on the ceiling than elsewhere. 1: not even those
+/// of four times, so that it is scattered points.
 int times_until_filled(const Raster& raster) {
   constexpr double full = 0.6;
   constexpr int most = 4;
@@ -37,9 +38,9 @@ int times_until_filled(const Raster& raster) {
     // Doubled squares hold a quarter as many of a full surface, and as many of single points.
     const double doubled = raster.coarse(2 * times).area();
     const double own = times == 1 ? area : raster.coarse(times).area();
-    if (own >= full * doubled) break;
+    if (own >= full * doubled) return times;
   }
-  return times;
+  return 1;
 }
 
 }  // namespace

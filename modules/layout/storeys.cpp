@@ -131,7 +131,8 @@ class Finder {
   /// Whether the floor goes on under much of it: then it is a table, or many.
   bool stands_on(const Level& l, const Level& floor) const {
     constexpr double much = 0.3;
-    if (&l == &floor || l.height <= floor.height + step || l.height >= floor.height + params_.min_clearance) return false;
+    if (&l == &floor || l.height <= floor.height + step || l.height >= floor.height + params_.min_clearance)
+      return false;
     const Raster high = filled(l.primitive), low = filled(floor.primitive);
     int all = 0, both = 0;
     for (int y = 0; y < high.height; ++y)

@@ -103,10 +103,11 @@ struct StoreyCells {
 struct CellComplex {
   static constexpr std::string_view port_type = "CellComplex";
   static constexpr auto members() {
-    return std::tuple{&CellComplex::origin, &CellComplex::pixel, &CellComplex::storeys};
+    return std::tuple{&CellComplex::origin, &CellComplex::pixel, &CellComplex::noise, &CellComplex::storeys};
   }
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   double pixel = 0;                  ///< edge of the squares in which coverage was measured, metres
+  double noise = 0;                  ///< mean distance of points from their planes, metres
   std::vector<StoreyCells> storeys;  ///< lowest first
 };
 
