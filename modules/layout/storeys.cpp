@@ -197,16 +197,25 @@ class Finder {
     return static_cast<std::int32_t>(std::lower_bound(cuts_.begin(), cuts_.end(), z) - cuts_.begin());
   }
 
-  void sort_levels(std::int32_t storey, Structure& result) const {
-    const Level* main_floor = nullptr;
-    const Level* main_ceiling = nullptr;
+  /// The largest level surface of a storey that is large enough and wanted; null: none.
+  template <class Wanted>
+  const Level* largest(std::int32_t storey, Wanted wanted) const {
+    const Level* best = nullptr;
     for (const auto& l : levels_) {
-      if (l.slanted || storey_of(l.height) != storey || (l.up && l.sheltered < least_sheltered)) continue;
-      const Level*& best = l.up ? main_floor : main_ceiling;
+      if (l.slanted || l.area < params_.min_area || storey_of(l.height) != storey || !wanted(l)) continue;
       if (best == nullptr || l.sheltered_area() > best->sheltered_area()) best = &l;
     }
-    if (main_floor != nullptr && main_floor->area < params_.min_area) main_floor = nullptr;
-    if (main_ceiling != nullptr && main_ceiling->area < params_.min_area) main_ceiling = nullptr;
+    return best;
+  }
+
+  void sort_levels(std::int32_t storey, Structure& result) const {
+    const Level* main_ceiling = largest(storey, [](const Level& l) { return !l.up; });
+    const Level* main_floor = largest(storey, [&](const Level& l) {
+      // What lies right under a larger ceiling is the top of a beam or a lamp.
+      const bool at_ceiling = main_ceiling != nullptr && l.area < main_ceiling->area &&
+                              l.height > main_ceiling->height - params_.min_clearance;
+      return l.up && l.sheltered >= least_sheltered && !at_ceiling;
+    });
     if (main_floor == nullptr) context_.warn(fmt::format("storey {}: no floor was found", storey));
     const double ground = main_floor != nullptr     ? main_floor->height
                           : main_ceiling != nullptr ? main_ceiling->height - params_.min_clearance - lower_ceilings
