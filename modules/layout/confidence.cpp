@@ -8,6 +8,7 @@
 #include "modules/layout/covered_floor.hpp"
 #include "modules/layout/kept_rooms.hpp"
 #include "modules/layout/room_doubts.hpp"
+#include "modules/layout/slopes_left_out.hpp"
 #include "modules/types/building_rules.hpp"
 
 namespace atrium::layout {
@@ -56,6 +57,13 @@ double area_of(const Building& building) {
 /// Judges the building by its rooms and by what they leave out.
 void judge(const PlanePrimitives& planes, const Frame& frame, Building& building) {
   building.confidence = mean_confidence(building);
+  if (const SlopesLeftOut slopes = slopes_left_out(building, planes); slopes.area > 0) {
+    building.confidence *= ramp(slopes.area / area_of(building), 0.05, 0.5, 1, 0.4);
+    building.doubts.push_back(
+        fmt::format("{:.1f} m2 of sloping surfaces are no part of the model, such as leaning walls or vaults (the "
+                    "largest, {:.1f} m2, {})",
+                    slopes.area, slopes.largest, frame.place(slopes.where)));
+  }
   const CoveredFloor covered = covered_floor_without_room(building, planes);
   if (!(covered.missing > 0)) return;
   const double area = area_of(building), share = area / (area + covered.missing);

@@ -4,11 +4,24 @@
 
 #include <algorithm>
 
+#include "modules/layout/blank_gaps.hpp"
 #include "modules/layout/opening_pairs.hpp"
 #include "modules/layout/wall_pairs.hpp"
 #include "modules/types/building_rules.hpp"
 
 namespace atrium::layout {
+namespace {
+
+void warn_of(const std::vector<FaceHole>& gaps, const Context& context) {
+  const auto largest = std::max_element(
+      gaps.begin(), gaps.end(), [](const FaceHole& a, const FaceHole& b) { return a.box.volume() < b.box.volume(); });
+  context.warn(
+      fmt::format("{} gaps in walls have the size of windows, but nothing was seen behind them: they are left "
+                  "closed (the largest is {:.2f} m wide and {:.2f} m high)",
+                  gaps.size(), largest->box.sizes().x(), largest->box.sizes().y()));
+}
+
+}  // namespace
 
 Openings::Out Openings::run(const In& in, const Params& params, Context& context) {
   check(*in.building);
@@ -30,8 +43,11 @@ Openings::Out Openings::run(const In& in, const Params& params, Context& context
   take_solid_from_behind(building, evidence);
   for_each_face([&](std::size_t f) { finder.look_through(f, evidence[f]); });
   take_holes_from_behind(building, evidence);
+  std::vector<FaceMask> masks;
+  for (const auto& e : evidence) masks.push_back(e.mask);
   Found found(building.faces.size());
   for_each_face([&](std::size_t f) { found[f] = face_holes(building.faces[f], evidence[f], params); });
+  const auto gaps = blank_gaps(building, cloud, masks, evidence, found, params);
   std::size_t doubtful = 0;
   for (auto& holes : found) doubtful += std::erase_if(holes, [](const FaceHole& hole) { return hole.doubtful; });
   building.openings = joined(building, found, params.max_door_width);
@@ -43,6 +59,7 @@ Openings::Out Openings::run(const In& in, const Params& params, Context& context
                            count("door"), count("passage"), count("window"), count("slab"), building.walls.size()));
   if (doubtful > 0)
     context.info(fmt::format("{} openings are left out: too little of the faces around them was seen", doubtful));
+  if (!gaps.empty()) warn_of(gaps, context);
   Building relative;  // the openings alone, to the building's own origin
   relative.origin = building.origin;
   relative.openings = std::move(building.openings);

@@ -1,0 +1,104 @@
+#include "modules/layout/blank_gaps.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace atrium::layout {
+namespace {
+
+constexpr double widest = 3;        // metres
+constexpr double least_side = 0.8;  // of a side of the rim
+constexpr double before = 0.6;      // metres before the wall: what stands there hides it
+constexpr std::size_t few = 6;      // points: fewer hide nothing
+
+struct Gap {
+  std::size_t face;
+  FaceHole hole;
+  std::size_t in_front = 0;
+};
+
+/// The share of a band's squares that are solid.
+double solid_share(const FaceMask& mask, const Eigen::AlignedBox2d& band) {
+  std::size_t all = 0, solid = 0;
+  const Eigen::AlignedBox2i squares = mask.squares_in(band);
+  for (int y = squares.min().y(); y <= squares.max().y(); ++y)
+    for (int x = squares.min().x(); x <= squares.max().x(); ++x) {
+      if (!band.contains(mask.centre(x, y))) continue;
+      ++all;
+      solid += mask.at(x, y) == Square::solid ? 1 : 0;
+    }
+  return all > 0 ? static_cast<double>(solid) / static_cast<double>(all) : 0;
+}
+
+bool has_clean_rim(const FaceMask& mask, double spacing, const Eigen::AlignedBox2d& box) {
+  const double near = mask.pixel() + 0.5 * spacing, far = near + std::max(0.15, spacing);
+  for (int side = 0; side < 4; ++side) {
+    const int axis = side / 2;
+    Eigen::AlignedBox2d band = box;
+    if (side % 2 == 0) {
+      band.min()[axis] = box.min()[axis] - far;
+      band.max()[axis] = box.min()[axis] - near;
+    } else {
+      band.min()[axis] = box.max()[axis] + near;
+      band.max()[axis] = box.max()[axis] + far;
+    }
+    if (solid_share(mask, band) < least_side) return false;
+  }
+  return true;
+}
+
+/// Every square without points counts.
+FaceMask all_empty(FaceMask mask) {
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x)
+      if (mask.at(x, y) == Square::hidden) mask.at(x, y) = Square::hole;
+  return mask;
+}
+
+void find_in(std::size_t face, const FaceMask& mask, const FaceEvidence& evidence, const std::vector<FaceHole>& found,
+             const Openings::Params& params, std::vector<Gap>& gaps) {
+  FaceMask left = all_empty(mask);
+  const double pixel = mask.pixel();
+  const double least = 0.5 * std::max(params.min_width / pixel, 1.0) * std::max(params.min_height / pixel, 1.0);
+  for (const auto& part : left.parts())
+    while (const auto squares = left.best_rectangle(part, least)) {
+      const double all = (squares->sizes().x() + 1.0) * (squares->sizes().y() + 1.0);
+      const bool filled = static_cast<double>(left.count(*squares, Square::hole)) >= params.min_fill * all;
+      left.fill(*squares, Square::solid);
+      const Eigen::Vector2d half = Eigen::Vector2d::Constant(pixel / 2);
+      FaceHole hole;
+      hole.frame = evidence.frame;
+      hole.box = {mask.centre(squares->min().x(), squares->min().y()) - half,
+                  mask.centre(squares->max().x(), squares->max().y()) + half};
+      const Eigen::Vector2d size = hole.box.sizes();
+      const bool fits = size.x() >= params.min_width && size.y() >= params.min_height && size.x() <= widest;
+      const bool known = std::any_of(found.begin(), found.end(),
+                                     [&](const FaceHole& other) { return other.box.intersects(hole.box); });
+      if (filled && fits && !known && has_clean_rim(mask, evidence.spacing, hole.box)) gaps.push_back({face, hole});
+    }
+}
+
+}  // namespace
+
+std::vector<FaceHole> blank_gaps(const Building& building, const Cloud& cloud, const std::vector<FaceMask>& masks,
+                                 const Evidence& evidence, const Found& found, const Openings::Params& params) {
+  std::vector<Gap> gaps;
+  for (std::size_t f = 0; f < masks.size(); ++f)
+    if (evidence[f].looked_at() && building.faces[f].surface == SurfaceClass::wall && building.faces[f].primitive >= 0)
+      find_in(f, masks[f], evidence[f], found[f], params, gaps);
+  if (gaps.empty()) return {};
+  for (const auto& point : cloud.points) {
+    const Eigen::Vector3d p = point.cast<double>();
+    for (Gap& gap : gaps) {
+      const double distance = building.faces[gap.face].plane.signed_distance(p);
+      if (distance > before || distance < 2 * evidence[gap.face].tolerance) continue;
+      gap.in_front += gap.hole.box.contains(gap.hole.frame.to_plane(p)) ? 1 : 0;
+    }
+  }
+  std::vector<FaceHole> result;
+  for (auto& gap : gaps)
+    if (gap.in_front < few) result.push_back(std::move(gap.hole));
+  return result;
+}
+
+}  // namespace atrium::layout
