@@ -110,17 +110,16 @@ class Labelling {
     std::map<std::size_t, double> beside;  // length of the border with another surface
   };
 
-  /// Gives the smallest patch that hardly shows its surface to the one beside it with the longest border. False: none.
+  using Patches = std::map<std::size_t, Patch>;
+  using Sets = boost::disjoint_sets<std::size_t*, std::size_t*>;
+
   template <class Covers>
-  bool absorb(Covers covers) {
-    constexpr double hardly = 0.25, half = 0.5, small = 2;  // shares; square metres
-    std::vector<std::size_t> rank(cells_.size()), parent(cells_.size());
-    boost::disjoint_sets<std::size_t*, std::size_t*> sets(rank.data(), parent.data());
+  Patches patches_of(Sets& sets, Covers covers) const {
     for (std::size_t e = 0; e < cells_.size(); ++e) sets.make_set(e);
     for (const auto& edge : storey_.edges)
       if (const auto [a, b] = elements(edge); a >= 0 && label(a) == label(b))
         sets.union_set(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
-    std::map<std::size_t, Patch> patches;
+    Patches patches;
     for (std::size_t e = 0; e < cells_.size(); ++e) {
       Patch& patch = patches[sets.find_set(e)];
       const LayoutCell& cell = storey_.cells[cells_[e]];
@@ -136,17 +135,32 @@ class Labelling {
       patches[sets.find_set(static_cast<std::size_t>(a))].beside[label(b)] += length;
       patches[sets.find_set(static_cast<std::size_t>(b))].beside[label(a)] += length;
     }
-    auto least = patches.end();
-    for (auto p = patches.begin(); p != patches.end(); ++p) {
-      const Patch& patch = p->second;
-      if (patch.beside.empty() || surfaces_[labels_[p->first]].primitive < 0) continue;
-      const bool in_unseen = std::any_of(patch.beside.begin(), patch.beside.end(),
-                                         [&](const auto& other) { return surfaces_[other.first].primitive < 0; });
-      const double least_seen = patch.area >= small ? hardly : in_unseen ? 2 : half;
-      if (patch.seen >= least_seen * patch.area) continue;
-      if (least == patches.end() || patch.area < least->second.area) least = p;
-    }
-    if (least == patches.end()) return false;
+    return patches;
+  }
+
+  /// A patch that shows too little of its surface to be one: a quarter, or half of a small one; a small one beside an
+  /// inferred surface never shows enough.
+  bool is_weak(std::size_t label, const Patch& patch) const {
+    constexpr double hardly = 0.25, half = 0.5;
+    if (patch.beside.empty() || surfaces_[label].primitive < 0) return false;
+    if (patch.area >= params_.min_patch) return patch.seen < hardly * patch.area;
+    return patch.seen < half * patch.area ||
+           std::any_of(patch.beside.begin(), patch.beside.end(),
+                       [&](const auto& other) { return surfaces_[other.first].primitive < 0; });
+  }
+
+  /// Gives the smallest weak patch to the surface beside it with the longest border. False: there is none.
+  template <class Covers>
+  bool absorb(Covers covers) {
+    if (params_.min_patch == 0) return false;
+    std::vector<std::size_t> rank(cells_.size()), parent(cells_.size());
+    Sets sets(rank.data(), parent.data());
+    const Patches patches = patches_of(sets, covers);
+    const Patches::value_type* least = nullptr;
+    for (const auto& patch : patches)
+      if (is_weak(labels_[patch.first], patch.second) && (least == nullptr || patch.second.area < least->second.area))
+        least = &patch;
+    if (least == nullptr) return false;
     const auto& beside = least->second.beside;
     const std::size_t to = std::max_element(beside.begin(), beside.end(), [](const auto& a, const auto& b) {
                              return a.second < b.second;

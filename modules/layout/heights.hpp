@@ -14,6 +14,9 @@ namespace atrium::layout {
 /// A room of which less than min_seen lies under a scanned ceiling has one of its own where its walls end (a third of
 /// their length rises higher), in cells that no scanned one covers for the most part.
 ///
+/// Heights that differ by less than three times the noise are one. Last, parts of a floor or ceiling that hardly show
+/// their surface take the one beside them (min_patch).
+///
 /// Source: Y. Boykov, O. Veksler, R. Zabih, Fast approximate energy minimization via graph cuts, PAMI 23(11), 2001.
 struct Heights {
   static constexpr std::string_view type = "layout.heights";
@@ -29,6 +32,7 @@ struct Heights {
     double border_weight = 0.02;
     double min_clearance = 0.5;
     double min_seen = 0.3;
+    double min_patch = 2;
   };
   static constexpr auto inputs = std::tuple{port(&In::cells, "cells", "Cells with their rooms.")};
   static constexpr auto outputs = std::tuple{port(&Out::cells, "cells", "The same, each with its floor and ceiling.")};
@@ -38,7 +42,10 @@ struct Heights {
             "Of a border between two surfaces: the height of a step that costs as much."),
       param(&Params::min_clearance, "min_clearance", metres, within(0, 10), "Least height of a room."),
       param(&Params::min_seen, "min_seen", ratio, within(0, 1),
-            "Share of a room's ceiling that must have been scanned; without, one is inferred.")};
+            "Share of a room's ceiling that must have been scanned; without, one is inferred."),
+      param(&Params::min_patch, "min_patch", square_metres, within(0, 1e6),
+            "Part of a floor or ceiling that must show half of its surface to be one of its own; a larger part must "
+            "show a quarter. 0: all stay as the labelling has them.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

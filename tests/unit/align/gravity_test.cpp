@@ -87,6 +87,14 @@ TEST(AlignGravity, BelievesZWhereNothingTells) {
   const auto habit =
       Gravity::run({input(without_sides(cube.planes())), {}}, {.habit = Gravity::Habit::y}, warnings.context());
   EXPECT_NEAR((habit.transform.rotation * Vector3d::UnitY() - Vector3d::UnitZ()).norm(), 0, 1e-6);
+  // Unless it is set, the cloud knows it.
+  PlanePrimitives planes = without_sides(cube.planes());
+  Cloud cloud = *planes.cloud;
+  cloud.y_up = true;
+  planes.cloud = std::make_shared<const Cloud>(cloud);
+  const auto known = Gravity::run({input(planes), {}}, {}, warnings.context());
+  EXPECT_EQ(known.transform.rotation, habit.transform.rotation);
+  EXPECT_FALSE(known.planes.cloud->y_up);  // it is turned
 }
 
 TEST(AlignGravity, TakesOutATiltAndWarnsOfALargeOne) {

@@ -52,6 +52,19 @@ Building far_away() {
   return building;
 }
 
+TEST_F(BuildingFile, NamesTheUnitOfTheScan) {
+  EXPECT_FALSE(write(far_away()).contains("scan_unit"));
+  Cloud scan;
+  for (const auto& [metres, name] : {std::pair{0.3048, "ft"}, {0.001, "mm"}, {0.5, "0.5 m"}}) {
+    scan.unit = metres;
+    WriteBuilding::run({input(far_away()), {}, input(scan)}, {}, context);
+    const json unit = json::parse(std::ifstream(file)).at("scan_unit");
+    EXPECT_EQ(unit.at("name"), name);
+    EXPECT_EQ(unit.at("metres"), metres);
+    EXPECT_EQ(content_hash(read().building), content_hash(far_away()));
+  }
+}
+
 TEST_F(BuildingFile, ComesBackBitByBit) {
   const Building building = far_away();
   write(building);

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "files.hpp"
 #include "modules/io/decode.hpp"
 #include "modules/io/read_scan.hpp"
@@ -86,11 +88,24 @@ TEST_F(Units, ReadScanTakesOrFindsTheUnit) {
   params.unit = ReadScan::Unit::automatic;
   EXPECT_NEAR(height(), 2.5, 0.03);
   EXPECT_TRUE(warned("taken to be in feet")) << warnings();
+  EXPECT_NEAR(ReadScan::run({}, params, context).cloud.unit, 0.3048, 1e-12);
   params.unit = ReadScan::Unit::inch;
   EXPECT_NEAR(height(), 2.5 / 12, 0.01);
   params.unit = ReadScan::Unit::automatic;
   params.scale = 0.5;  // a factor is not second-guessed
   EXPECT_NEAR(height(), 2.5 / 0.3048 / 2, 0.1);
+}
+
+TEST_F(Units, ObjFilesUsuallyHaveYUp) {
+  ReadScan::Params params;
+  params.path.path = path("points.obj");
+  std::ofstream(params.path.path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  EXPECT_TRUE(ReadScan::run({}, params, context).cloud.y_up);
+  params.path.path = path("points.xyz");
+  std::ofstream(params.path.path) << "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  const Cloud cloud = ReadScan::run({}, params, context).cloud;
+  EXPECT_FALSE(cloud.y_up);
+  EXPECT_EQ(cloud.unit, 1);
 }
 
 }  // namespace

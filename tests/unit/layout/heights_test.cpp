@@ -4,6 +4,8 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <set>
+
 #include "graph/api/context.hpp"
 #include "tests/unit/layout/cells.hpp"
 
@@ -12,9 +14,10 @@ namespace {
 
 using namespace atrium::test;
 
-StoreyCells settled(const StoreyCells& storey, const Heights::Params& params = {}) {
+StoreyCells settled(const StoreyCells& storey, const Heights::Params& params = {}, double noise = 0) {
   Context context;
   CellComplex cells;
+  cells.noise = noise;
   cells.storeys.push_back(storey);
   return Heights::run({input(cells)}, params, context).cells.storeys[0];
 }
@@ -100,7 +103,8 @@ StoreyCells random_floors(Random& random, std::size_t floors) {
 
 RC_GTEST_PROP(Heights, TwoFloorsAreTheBestChoice, (std::uint32_t seed)) {
   Random random(seed);
-  const Heights::Params params{.step_weight = random.uniform(0, 2), .border_weight = random.uniform(0, 0.2)};
+  const Heights::Params params{
+      .step_weight = random.uniform(0, 2), .border_weight = random.uniform(0, 0.2), .min_patch = 0};
   const StoreyCells storey = random_floors(random, 2);
   const FloorEnergy energy(storey, params);
   RC_ASSERT(energy(floors_of(settled(storey, params))) <= least_energy(storey, energy) + 1e-9);
@@ -110,7 +114,8 @@ RC_GTEST_PROP(Heights, TwoFloorsAreTheBestChoice, (std::uint32_t seed)) {
 // are a metric (Boykov, Veksler and Zabih 2001), and none dearer than what it begins with.
 RC_GTEST_PROP(Heights, MoreFloorsAreNearlyTheBestChoice, (std::uint32_t seed)) {
   Random random(seed);
-  const Heights::Params params{.step_weight = random.uniform(0, 2), .border_weight = random.uniform(0, 0.2)};
+  const Heights::Params params{
+      .step_weight = random.uniform(0, 2), .border_weight = random.uniform(0, 0.2), .min_patch = 0};
   const StoreyCells storey = random_floors(random, 3);
   const FloorEnergy energy(storey, params);
   const auto found = floors_of(settled(storey, params));
@@ -175,6 +180,35 @@ TEST(Heights, ACeilingIsAboveTheFloorWhereThereIsAChoice) {
   storey.ceilings = {level(0.2, false)};
   grid_cell(storey, 0, 0).ceilings.clear();
   for (const auto& cell : settled(storey).cells) EXPECT_EQ(cell.ceiling, 0);
+}
+
+TEST(Heights, WhatTheNoisePartsIsOne) {
+  StoreyCells storey = grid_cells({"aaaa", "aaaa"});
+  storey.floors.push_back(level(0.12, true));
+  for (int x = 0; x < 4; ++x)
+    for (int y = 0; y < 2; ++y) grid_cell(storey, x, y).floors = {{x < 2 ? 0 : 1, 1}};
+  const auto count = [](const StoreyCells& result) {
+    std::set<std::int32_t> floors;
+    for (const auto& cell : result.cells) floors.insert(cell.floor);
+    return floors.size();
+  };
+  EXPECT_EQ(count(settled(storey)), 2U);
+  EXPECT_EQ(count(settled(storey, {}, 0.05)), 1U);
+}
+
+TEST(Heights, APartThatHardlyShowsItsSurfaceTakesTheOneBesideIt) {
+  StoreyCells storey = grid_cells({"aaaa"});
+  storey.ceilings.push_back(level(1.5, false));
+  for (int x = 0; x < 3; ++x) grid_cell(storey, x, 0).ceilings = {{0, 1}};
+  grid_cell(storey, 3, 0).ceilings = {{1, 0.4}};
+  const Heights::Params free{.step_weight = 0, .border_weight = 0};
+  auto kept = settled(storey, {.step_weight = 0, .border_weight = 0, .min_patch = 0});
+  EXPECT_EQ(grid_cell(kept, 3, 0).ceiling, 1);
+  auto result = settled(storey, free);
+  EXPECT_EQ(grid_cell(result, 3, 0).ceiling, 0);
+  grid_cell(storey, 3, 0).ceilings = {{1, 0.6}};
+  result = settled(storey, free);
+  EXPECT_EQ(grid_cell(result, 3, 0).ceiling, 1);
 }
 
 TEST(Heights, WithoutRoomsNothingIsDecided) {

@@ -4,7 +4,9 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <set>
 
 #include "tests/unit/layout/cells.hpp"
 #include "tests/unit/layout/chain.hpp"
@@ -214,6 +216,35 @@ RC_GTEST_PROP(Rooms, AreAlwaysConnectedAndNumberedByArea, (std::uint32_t seed)) 
           }
     RC_ASSERT(reached.size() == members[room].size());
   }
+}
+
+TEST(Rooms, AWallSeenFromOneSidePartsThem) {
+  StoreyCells storey = scanned({"aabb", "aabb"});
+  EXPECT_EQ(decided({storey}).cells.storeys[0].cells.size(), storey.cells.size());
+  const auto rooms = [&](const StoreyCells& s) {
+    std::set<std::int32_t> result;
+    const auto decision = decided({s});
+    for (const auto& cell : decision.cells.storeys[0].cells) result.insert(cell.room);
+    return result.size();
+  };
+  EXPECT_EQ(rooms(storey), 2U);
+  for (auto& edge : storey.edges)
+    if (edge.left >= 0 && edge.right >= 0 && edge.wall_left > 0 && edge.wall_right > 0) edge.wall_left = 0;
+  EXPECT_EQ(rooms(storey), 2U);
+  for (auto& edge : storey.edges)
+    if (edge.left >= 0 && edge.right >= 0) edge.wall_left = edge.wall_right = 0;
+  EXPECT_EQ(rooms(storey), 1U);
+}
+
+TEST(Rooms, NichesTooSmallToBeOnesAreEvened) {
+  const StoreyCells storey = scanned({"aaaa", "aaaa", "..a."});  // squares of 1 m2
+  const auto inside = [&](const Rooms::Params& params) {
+    const auto decision = decided({storey}, params);
+    return std::count_if(decision.cells.storeys[0].cells.begin(), decision.cells.storeys[0].cells.end(),
+                         [](const LayoutCell& cell) { return cell.room >= 0; });
+  };
+  EXPECT_EQ(inside({}), 9);
+  EXPECT_EQ(inside({.min_detail = 1.5}), 8);
 }
 
 }  // namespace
