@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "modules/io/json_text.hpp"
 #include "modules/types/building_rules.hpp"
