@@ -1,23 +1,26 @@
 # atrium_add_plugin(<module> NODES <name>... [NAMESPACE <ns>] [SOURCES <file>...] [LIBRARIES <target>...]
-#                   [DATA <folder>...] [LAZY] [NO_INSTALL])
+#                   [DATA <folder>...] [LAZY [LIGHT <name>...]] [NO_INSTALL])
 #
 # Builds libatrium_<module>.so from the node types <name>: each is a pair of files, <name>.hpp and <name>.cpp, whose header
 # holds the struct <Name> (CamelCase of the file's name) in the namespace <ns> (default: atrium::<module>), with
 # type = "<module>.<name>". Installed to <libdir>/atrium, where the program finds it; during development ATRIUM_PLUGIN_PATH
 # can name the build's folder lib/atrium. LAZY is for modules that link large libraries (PCL, VTK): the tables stand in a
-# light library, the functions in libatrium_<module>-run.so, which is loaded when a node of the module first runs. DATA names
+# light library, the functions in libatrium_<module>-run.so, which is loaded when a node of the module first runs; LIGHT names
+# those of NODES that need no large library, whose functions stand beside the tables. DATA names
 # folders below share/ whose files the nodes read (found with data_folder(), graph/api/plugin_data.hpp): when one of them changes,
 # the module's nodes are run again. Adding a node type is adding the pair of files and its name to NODES.
 include(GNUInstallDirs)
 set(ATRIUM_PLUGIN_TEMPLATE_DIR ${CMAKE_CURRENT_LIST_DIR})
 function(atrium_add_plugin module)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "LAZY;NO_INSTALL" "NAMESPACE" "NODES;SOURCES;LIBRARIES;DATA")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LAZY;NO_INSTALL" "NAMESPACE" "NODES;LIGHT;SOURCES;LIBRARIES;DATA")
   if(NOT arg_NAMESPACE)
     set(arg_NAMESPACE atrium::${module})
   endif()
   set(includes "")
   set(structs "")
-  set(sources ${arg_SOURCES})
+  set(light_structs "")
+  set(light_sources "")
+  set(sources "")
   foreach(node IN LISTS arg_NODES)
     string(REPLACE "_" ";" words ${node})
     set(struct "")
@@ -28,13 +31,19 @@ function(atrium_add_plugin module)
       string(APPEND struct ${first}${rest})
     endforeach()
     string(APPEND includes "#include \"${node}.hpp\"\n")
-    list(APPEND structs "${arg_NAMESPACE}::${struct}")
-    list(APPEND sources ${node}.cpp)
+    if(node IN_LIST arg_LIGHT)
+      list(APPEND light_structs "${arg_NAMESPACE}::${struct}")
+      list(APPEND light_sources ${node}.cpp)
+    else()
+      list(APPEND structs "${arg_NAMESPACE}::${struct}")
+      list(APPEND sources ${node}.cpp)
+    endif()
   endforeach()
   list(JOIN structs ",\n              " structs)
+  list(JOIN light_structs ", " light_structs)
   set(macro ATRIUM_PLUGIN)
   configure_file(${ATRIUM_PLUGIN_TEMPLATE_DIR}/plugin.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/plugin.cpp @ONLY)
-  add_library(atrium_${module} SHARED ${CMAKE_CURRENT_BINARY_DIR}/plugin.cpp ${sources})
+  add_library(atrium_${module} SHARED ${CMAKE_CURRENT_BINARY_DIR}/plugin.cpp ${sources} ${arg_SOURCES})
   target_include_directories(atrium_${module} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(atrium_${module} PUBLIC atrium::graph atrium::types ${arg_LIBRARIES})
   set_target_properties(atrium_${module} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/atrium
@@ -42,11 +51,12 @@ function(atrium_add_plugin module)
   set(targets atrium_${module})
   if(arg_LAZY)
     set(macro ATRIUM_LAZY_PLUGIN)
+    set(structs "atrium::detail::Types<${structs}>{},\n              atrium::detail::Types<${light_structs}>{}")
     configure_file(${ATRIUM_PLUGIN_TEMPLATE_DIR}/plugin.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/tables.cpp @ONLY)
-    add_library(atrium_${module}_tables SHARED ${CMAKE_CURRENT_BINARY_DIR}/tables.cpp)
+    add_library(atrium_${module}_tables SHARED ${CMAKE_CURRENT_BINARY_DIR}/tables.cpp ${light_sources})
     target_include_directories(atrium_${module}_tables PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
     target_link_libraries(atrium_${module}_tables PRIVATE atrium::graph atrium::types)
-    add_dependencies(atrium_${module} atrium_${module}_tables)
+    target_link_libraries(atrium_${module} PUBLIC atrium_${module}_tables)
     set_target_properties(atrium_${module} PROPERTIES OUTPUT_NAME atrium_${module}-run)
     set_target_properties(atrium_${module}_tables PROPERTIES OUTPUT_NAME atrium_${module}
                           LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/atrium INSTALL_RPATH "$ORIGIN;$ORIGIN/..")

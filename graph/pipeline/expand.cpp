@@ -8,6 +8,7 @@
 namespace atrium {
 namespace {
 
+constexpr std::string_view how_to_build = "./share/build, or ninja -C build, builds all of Atrium";
 constexpr std::size_t most_nodes = 100'000;
 constexpr int deepest_chain = 32;
 
@@ -233,7 +234,10 @@ void Expander::add_node(Scope& scope, const DocumentNode& node) {
   }
   if (!type.empty()) {
     flat.type = registry_.find(type);
-    if (flat.type == nullptr) report_unknown_type(where, type, notes);
+    if (flat.type == nullptr)
+      report_unknown_type(where, type, notes);
+    else if (!Registry::missing_library(*flat.type).empty())
+      findings_.error(where, fmt::format("'{}' is not built", type), std::string(how_to_build), notes);
   }
   scope.members.emplace(node.id.text, Member{expansion_.nodes.size(), nullptr});
   expansion_.nodes.push_back(std::move(flat));
@@ -323,6 +327,11 @@ void Expander::report_unknown_type(const Where& where, const std::string& type, 
   }
   const std::size_t dot = type.find('.');
   const std::string module = type.substr(0, dot);
+  if (dot != std::string::npos && registry_.is_left_out(module)) {
+    findings_.error(where, fmt::format("'{}' is not built: the plugin '{}' was left out", type, module),
+                    std::string(how_to_build), std::move(notes));
+    return;
+  }
   std::string message = fmt::format("unknown node type '{}'", type), help = findings_.suggest(type, all_types_);
   std::vector<std::string> siblings;
   for (const auto& known : all_types_)

@@ -51,6 +51,14 @@ bool is_module_name(std::string_view name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), good);
 }
 
+/// Whether Atrium's own build has a plugin of that name: modules.txt, beside the plugins, lists them, built or not.
+bool is_own_module(const std::string& module) {
+  std::ifstream list(own_plugin_folder() / "modules.txt");
+  for (std::string line; std::getline(list, line);)
+    if (line == module) return true;
+  return false;
+}
+
 using StampFunction = const char* (*)();
 using NodesFunction = void (*)(std::vector<NodeType>&);
 
@@ -100,6 +108,15 @@ const NodeType& node_of_second_library(const std::string& file, const std::strin
   return found->second;
 }
 
+/// The function of a node type that is in a second library.
+struct SecondLibrary {
+  std::string file, type;
+  std::vector<Value> operator()(const std::vector<std::vector<Value>>& inputs, const std::vector<ParamValue>& params,
+                                Context& context) const {
+    return node_of_second_library(file, module_of(type), type).run(inputs, params, context);
+  }
+};
+
 }  // namespace
 
 decltype(NodeType::run) detail::run_of_second_library(const void* anchor, const std::string& type) {
@@ -108,10 +125,7 @@ decltype(NodeType::run) detail::run_of_second_library(const void* anchor, const 
   std::string file = known ? info.dli_fname : "";
   if (file.ends_with(suffix)) file.resize(file.size() - suffix.size());
   file += "-run.so";
-  return [file, type](const std::vector<std::vector<Value>>& inputs, const std::vector<ParamValue>& params,
-                      Context& context) {
-    return node_of_second_library(file, module_of(type), type).run(inputs, params, context);
-  };
+  return SecondLibrary{file, type};
 }
 
 struct Registry::Impl {
@@ -168,6 +182,16 @@ std::vector<const NodeType*> Registry::all(std::vector<std::string>* problems) {
   std::vector<const NodeType*> result;
   for (const auto& [name, type] : impl_->types) result.push_back(&type);
   return result;
+}
+
+bool Registry::is_left_out(const std::string& module) const {
+  return impl_->plugin_file(module).empty() && is_own_module(module);
+}
+
+std::string Registry::missing_library(const NodeType& type) {
+  const auto* second = type.run.target<SecondLibrary>();
+  std::error_code ignored;
+  return second == nullptr || std::filesystem::exists(second->file, ignored) ? "" : second->file;
 }
 
 void Registry::add(NodeType type) {

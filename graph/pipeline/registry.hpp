@@ -29,6 +29,10 @@ class Registry {
   void add(NodeType type);
   /// Names of all modules whose plugin files exist, loaded or not.
   std::vector<std::string> modules() const;
+  /// Whether Atrium's build has that module, but nobody has built it (share/quickstart builds what it needs).
+  bool is_left_out(const std::string& module) const;
+  /// The library that holds the type's function when that is not there; else "".
+  static std::string missing_library(const NodeType& type);
   /// A hash over the contents of Atrium's own libraries, of all plugins and of the data files that they read: another
   /// build, another value.
   std::string build() const;

@@ -79,7 +79,7 @@ Json pipeline_outputs(const Pipeline& pipeline, const RunResult& result) {
 }
 
 // Texts of nodes may hold bytes that are not UTF-8 (file names): they are replaced, never thrown at.
-std::string text(const Json& json) { return json_text(json, 1) + "\n"; }
+std::string manifest_text(const Json& json) { return json_text(json, 1) + "\n"; }
 
 }  // namespace
 
@@ -116,7 +116,7 @@ std::string manifest_json(const Pipeline& pipeline, const RunResult& result, con
   for (std::size_t n = 0; n < result.nodes.size(); ++n)
     nodes.push_back(node_json(result.nodes[n], *pipeline.nodes[n].type));
   json["nodes"] = std::move(nodes);
-  return text(json);
+  return manifest_text(json);
 }
 
 std::string unfinished_manifest(const Pipeline& pipeline, const std::string& started) {
@@ -126,7 +126,7 @@ std::string unfinished_manifest(const Pipeline& pipeline, const std::string& sta
     for (std::size_t i = 0; i < node.params.size(); ++i)
       if (node.type->params[i].kind == ParamKind::output_path)
         manifest["planned"].push_back(std::get<std::string>(node.params[i]));
-  return text(manifest);
+  return manifest_text(manifest);
 }
 
 }  // namespace atrium

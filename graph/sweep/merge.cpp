@@ -5,7 +5,7 @@
 namespace atrium {
 namespace {
 
-std::string hash_of(const std::string& text) {
+std::string hash_of_text(const std::string& text) {
   ContentHash hash;
   hash.bytes(text.data(), text.size());
   return hash.hex();
@@ -13,7 +13,7 @@ std::string hash_of(const std::string& text) {
 
 }  // namespace
 
-std::string id_of(const Pipeline& pipeline) { return hash_of(resolved_yaml(pipeline)).substr(0, 12); }
+std::string id_of(const Pipeline& pipeline) { return hash_of_text(resolved_yaml(pipeline)).substr(0, 12); }
 
 VariantMerger::Added VariantMerger::add(const Pipeline& pipeline, std::vector<std::size_t> choices) {
   SweepVariant variant{id_of(pipeline), std::move(choices), pipeline.seed};
@@ -40,7 +40,7 @@ std::size_t VariantMerger::place(const PipelineNode& node, const SweepVariant& v
       text += fmt::format("{}.{}\n", keys_[edge.node], edge.output);
     }
   }
-  std::string key = hash_of(text);
+  std::string key = hash_of_text(text);
   const auto [known, fresh] = nodes_.try_emplace(key, plan_.merged.nodes.size());
   if (!fresh) return known->second;
   merged.path = variant.id + "/" + node.path;

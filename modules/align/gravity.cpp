@@ -13,7 +13,7 @@
 namespace atrium::align {
 namespace {
 
-constexpr double radians = std::numbers::pi / 180.0;
+constexpr double per_degree = std::numbers::pi / 180.0;
 constexpr double near_axis = 15.0;  // degrees
 constexpr double large_turn = 5.0;  // degrees
 
@@ -24,7 +24,7 @@ struct Choice {
 };
 
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) / radians;
+  return std::atan2(a.cross(b).norm(), a.dot(b)) / per_degree;
 }
 
 /// The signed axis of the frame nearest to a direction.

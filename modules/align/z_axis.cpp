@@ -17,7 +17,7 @@ Eigen::Vector3d seen_normal(const PlanePrimitive& primitive, const Cloud& cloud)
   return agreement < 0 ? Eigen::Vector3d(-normal) : normal;
 }
 
-Eigen::Vector3d direction_of(const std::vector<double>& values) {
+Eigen::Vector3d given_direction(const std::vector<double>& values) {
   const Eigen::Vector3d direction(values[0], values[1], values[2]);
   const double length = direction.norm();
   if (length > 0 && std::isfinite(length)) return direction / length;
@@ -42,7 +42,7 @@ struct Side {
 }  // namespace
 
 ZAxis::Out ZAxis::run(const In& in, const Params& params, Context& context) {
-  const Eigen::Vector3d vertical = direction_of(params.up);
+  const Eigen::Vector3d vertical = given_direction(params.up);
   Side up, down;
   for (const auto& primitive : in.planes->primitives) {
     if (primitive.inliers.empty() || std::abs(primitive.plane.normal.dot(vertical)) < params.min_vertical) continue;

@@ -1,11 +1,10 @@
 #include "modules/baseline/ring_outline.hpp"
 
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "modules/geometry/plan_overlay.hpp"
 
 namespace atrium::baseline {
 namespace {
@@ -145,11 +144,7 @@ PlanRing cut(const std::vector<OutlineSide>& sides) {
 }
 
 bool is_simple(const PlanRing& ring) {
-  using Point = boost::geometry::model::d2::point_xy<double>;
-  boost::geometry::model::polygon<Point, false, false> polygon;
-  for (const auto& p : ring) polygon.outer().emplace_back(p.x(), p.y());
-  boost::geometry::correct(polygon);  // holes run the other way
-  return ring.size() >= 3 && boost::geometry::is_valid(polygon);
+  return ring.size() >= 3 && overlay::is_valid(overlay::corrected({ring, {}}));  // holes run the other way
 }
 
 }  // namespace

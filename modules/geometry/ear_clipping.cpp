@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector2d;
 using Ring = std::vector<std::uint32_t>;  // indices of corners
 
-double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
+double side_of(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
@@ -49,9 +49,9 @@ class Clipper {
   /// Whether the way from corner i of a ring to `to` begins inside of the polygon, as far as this corner tells.
   bool leads_inside(const Ring& ring, std::size_t i, const Vector2d& to) const {
     const Vector2d &before = place(ring, i + ring.size() - 1), &at = place(ring, i), &after = place(ring, i + 1);
-    const bool left_of_in = turn(before, at, to) > 0;
-    const bool left_of_out = turn(at, after, to) > 0;
-    return turn(before, at, after) > 0 ? left_of_in && left_of_out : left_of_in || left_of_out;
+    const bool left_of_in = side_of(before, at, to) > 0;
+    const bool left_of_out = side_of(at, after, to) > 0;
+    return side_of(before, at, after) > 0 ? left_of_in && left_of_out : left_of_in || left_of_out;
   }
 
   /// Whether the way from p to q, corners of the outline and of `hole`, meets any other corner or side.
@@ -66,9 +66,9 @@ class Clipper {
           return true;
         if (c == p || c == q) continue;
         const double along = (c - p).dot(q - p) / length;
-        if (along > 0 && along < length && std::abs(turn(p, q, c)) <= flat_ * length) return true;
+        if (along > 0 && along < length && std::abs(side_of(p, q, c)) <= flat_ * length) return true;
         if (d == p || d == q) continue;
-        if (turn(p, q, c) * turn(p, q, d) <= 0 && turn(c, d, p) * turn(c, d, q) <= 0) return true;
+        if (side_of(p, q, c) * side_of(p, q, d) <= 0 && side_of(c, d, p) * side_of(c, d, q) <= 0) return true;
       }
     return false;
   }
@@ -108,13 +108,13 @@ class Clipper {
 
   /// Whether p is left of a → b, or within rounding of it.
   bool is_beside(const Vector2d& a, const Vector2d& b, const Vector2d& p) const {
-    return turn(a, b, p) >= -flat_ * (b - a).norm();
+    return side_of(a, b, p) >= -flat_ * (b - a).norm();
   }
 
   bool is_ear(const Ring& ring, std::size_t i) const {
     const Vector2d &a = place(ring, i + ring.size() - 1), &b = place(ring, i), &c = place(ring, i + 1);
     // Corners on a line within rounding are no ear: their triangle would have no area.
-    if (turn(a, b, c) <= flat_ * std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()})) return false;
+    if (side_of(a, b, c) <= flat_ * std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()})) return false;
     return std::none_of(ring.begin(), ring.end(), [&](std::uint32_t k) {
       const Vector2d& p = points_[k];
       return p != a && p != b && p != c && is_beside(a, b, p) && is_beside(b, c, p) && is_beside(c, a, p);

@@ -8,7 +8,7 @@ namespace atrium {
 namespace {
 
 constexpr unsigned max_digit = 10;  // bits; more buckets than this outrun the write-combining and the TLB
-constexpr std::size_t chunk_size = std::size_t{1} << 17U;
+constexpr std::size_t sorted_chunk = std::size_t{1} << 17U;
 
 struct Digit {
   unsigned shift;
@@ -19,9 +19,9 @@ struct Digit {
 /// Where the values of each (chunk, bucket) go: counts, turned into running offsets with buckets as the outer loop.
 std::vector<std::uint32_t> offsets(const std::uint64_t* values, std::size_t size, Digit digit, const Context& context) {
   const std::size_t buckets = digit.mask + 1;
-  const std::size_t chunks = (size + chunk_size - 1) / chunk_size;
+  const std::size_t chunks = (size + sorted_chunk - 1) / sorted_chunk;
   std::vector<std::uint32_t> table(chunks * buckets, 0);
-  context.parallel_chunks(size, chunk_size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+  context.parallel_chunks(size, sorted_chunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     std::uint32_t* counts = table.data() + chunk * buckets;
     for (std::size_t i = begin; i < end; ++i) ++counts[digit(values[i])];
   });
@@ -37,7 +37,7 @@ std::vector<std::uint32_t> offsets(const std::uint64_t* values, std::size_t size
 
 void sort_by(const std::uint64_t* from, std::uint64_t* to, std::size_t size, Digit digit, const Context& context) {
   std::vector<std::uint32_t> table = offsets(from, size, digit, context);
-  context.parallel_chunks(size, chunk_size, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+  context.parallel_chunks(size, sorted_chunk, [&](std::size_t chunk, std::size_t first, std::size_t last) {
     std::uint32_t* next = table.data() + chunk * (digit.mask + 1);
     for (std::size_t i = first; i < last; ++i) to[next[digit(from[i])]++] = from[i];
   });
@@ -65,7 +65,7 @@ void radix_sort(std::vector<std::uint64_t>& values, unsigned low, unsigned high,
   if (from != values.data())
     context.parallel_for(
         values.size(), [&](std::size_t begin, std::size_t end) { std::copy(from + begin, from + end, to + begin); },
-        chunk_size);
+        sorted_chunk);
 }
 
 }  // namespace atrium

@@ -1,10 +1,11 @@
 #include "modules/geometry/surface_pieces.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "modules/geometry/point_tree.hpp"
+#include "modules/geometry/symmetric_eigen.hpp"
 
 namespace atrium {
 namespace {
@@ -48,10 +49,10 @@ Eigen::Vector3f local_normal(const std::vector<Eigen::Vector3f>& points, const s
     const Eigen::Vector3d d = points[n.index].cast<double>() - mean;
     spread += d * d.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
+  const SymmetricEigen axes = symmetric_eigen(spread);
   constexpr double flat = 0.1;  // of the second variance: a thickness of a third of the width
-  if (!(solver.eigenvalues()[0] < flat * solver.eigenvalues()[1])) return Eigen::Vector3f::Zero();
-  return solver.eigenvectors().col(0).cast<float>();
+  if (!(axes.values[0] < flat * axes.values[1])) return Eigen::Vector3f::Zero();
+  return axes.vectors.col(0).cast<float>();
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 #include "modules/geometry/upright_axes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "modules/geometry/symmetric_eigen.hpp"
 
 namespace atrium {
 namespace {
@@ -122,7 +123,7 @@ Eigen::Vector3d refined_vertical(const std::vector<FacedArea>& faces, const Eige
     // Where all votes leave a choice (walls of one direction), the nearest to the axis so far.
     constexpr double least = 1e-6;
     cost += least * cost.trace() * (Eigen::Matrix3d::Identity() - axis * axis.transpose());
-    const Eigen::Vector3d next = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(cost).eigenvectors().col(0);
+    const Eigen::Vector3d next = symmetric_eigen(cost).vectors.col(0);
     axis = next.dot(axis) < 0 ? Eigen::Vector3d(-next) : next;
   }
   return axis;

@@ -11,7 +11,7 @@
 namespace atrium {
 namespace {
 
-using Item = UprightView::Item;
+using ViewItem = UprightView::Item;
 using Kind = UprightView::Kind;
 
 double normal_density(double x, double mean, double deviation) {
@@ -89,7 +89,7 @@ class Column {
   Column(const UprightView& view, std::size_t column, bool upwards)
       : begin_(view.columns()[column]), size_(view.columns()[column + 1] - begin_), view_(view), upwards_(upwards) {}
   std::size_t size() const { return size_; }
-  const Item& operator[](std::size_t i) const { return view_.items()[begin_ + (upwards_ ? i : size_ - 1 - i)]; }
+  const ViewItem& operator[](std::size_t i) const { return view_.items()[begin_ + (upwards_ ? i : size_ - 1 - i)]; }
   double height(std::size_t i) const { return upwards_ ? (*this)[i].height : -(*this)[i].height; }
   /// Height of item i above the floor below it, or −1.
   double over_floor(std::size_t i) const { return distance(i, upwards_); }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "modules/io/json_text.hpp"
 #include "modules/types/building_rules.hpp"

@@ -1,8 +1,7 @@
 #include "modules/io/json_text.hpp"
 
 #include <algorithm>
-
-#include "graph/api/mapped_file.hpp"
+#include <nlohmann/json.hpp>
 
 namespace atrium::io {
 
@@ -36,18 +35,6 @@ SurfaceClass class_of(const JsonField& field) {
   for (const auto c : {SurfaceClass::wall, SurfaceClass::floor, SurfaceClass::ceiling, SurfaceClass::object})
     if (name == name_of(c)) return c;
   field.fail("is '" + name + "'", "classes are wall, floor, ceiling, object");
-}
-
-Json parsed_json(const std::string& path) {
-  const MappedFile file(path);
-  if (file.size() == 0) throw Error(path + ": the file is empty");
-  try {
-    return Json::parse(file.text());
-  } catch (const Json::exception& e) {
-    const std::string what = e.what();  // "[json.exception.parse_error.101] parse error at line 1, column 1: …"
-    const auto start = what.find("] ");
-    throw Error(path + ": not valid JSON: " + (start == std::string::npos ? what : what.substr(start + 2)));
-  }
 }
 
 }  // namespace atrium::io

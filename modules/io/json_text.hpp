@@ -18,7 +18,4 @@ JsonField::Json json_of(const std::vector<Eigen::Vector3d>& ring);
 /// "wall", "floor", "ceiling" or "object"; anything else is an error with its place.
 SurfaceClass class_of(const JsonField& field);
 
-/// The JSON of a file. Errors name the file, and the line and column of what is no JSON.
-JsonField::Json parsed_json(const std::string& path);
-
 }  // namespace atrium::io

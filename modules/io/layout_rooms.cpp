@@ -33,7 +33,7 @@ void add_room(GroundTruth& truth, const JsonField& corners, const std::string& n
 GroundTruth truth_from_rooms(const JsonField& root) {
   GroundTruth truth;
   const auto name = [&] { return "room " + std::to_string(truth.rooms.size() + 1); };
-  if (root.json().is_array()) {
+  if (root.is_list()) {
     for (const auto& corners : root.items()) add_room(truth, corners, name(), 0, 0, 0);
   } else {
     if (root.has("units") && root["units"].text() != "m") root["units"].fail("is not \"m\"", "convert it to metres");

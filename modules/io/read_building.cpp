@@ -3,13 +3,12 @@
 #include <Eigen/Geometry>
 
 #include "modules/io/building_json.hpp"
-#include "modules/io/json_text.hpp"
 
 namespace atrium::io {
 
 ReadBuilding::Out ReadBuilding::run(const In& /*in*/, const Params& params, Context& context) {
-  const auto json = parsed_json(params.path.path);
-  auto [building, up] = building_from_json({json, params.path.path + ":"});
+  const JsonFile file(params.path.path);
+  auto [building, up] = building_from_json(file.root());
   if (building.rooms.empty()) context.warn(params.path.path + ": there is no room in it");
   Out out;
   if (up == Eigen::Vector3d::UnitZ()) {

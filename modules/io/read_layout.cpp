@@ -4,7 +4,6 @@
 #include <array>
 #include <string_view>
 
-#include "modules/io/json_text.hpp"
 #include "modules/io/paths.hpp"
 #include "modules/io/truth_json.hpp"
 
@@ -14,7 +13,7 @@ namespace {
 GroundTruth read(const JsonField& root, const std::string& path, const Context& context) {
   if (root.has("atrium_truth")) return truth_from_json(root);
   if (root.has("planes")) return truth_from_planes(root, path, context);
-  if (root.has("rooms") || root.json().is_array()) return truth_from_rooms(root);
+  if (root.has("rooms") || root.is_list()) return truth_from_rooms(root);
   throw Error(path + ": no layout: it has none of the keys atrium_truth, planes, rooms",
               "io.read_layout documents what it reads");
 }
@@ -36,9 +35,9 @@ void refuse_geometry(const std::string& path) {
 ReadLayout::Out ReadLayout::run(const In& /*in*/, const Params& params, Context& context) {
   const std::string& path = params.path.path;
   refuse_geometry(path);
-  const auto json = parsed_json(path);
+  const JsonFile file(path);
   Out out;
-  out.truth = read({json, path + ":"}, path, context);
+  out.truth = read(file.root(), path, context);
   if (out.truth.rooms.empty()) context.warn(path + ": there is no room in it");
   out.plan = plan_of(out.truth);
   out.mesh = out.truth.mesh;

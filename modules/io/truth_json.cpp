@@ -1,6 +1,7 @@
 #include "modules/io/truth_json.hpp"
 
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "modules/io/json_text.hpp"
 

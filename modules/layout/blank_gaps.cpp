@@ -6,10 +6,10 @@
 namespace atrium::layout {
 namespace {
 
-constexpr double widest = 3;        // metres
-constexpr double least_side = 0.8;  // of a side of the rim
-constexpr double before = 0.6;      // metres before the wall: what stands there hides it
-constexpr std::size_t few = 6;      // points: fewer hide nothing
+constexpr double widest_gap = 3;           // metres
+constexpr double least_gap_side = 0.8;     // of a side of the rim
+constexpr double before_gap = 0.6;         // metres before the wall: what stands there hides it
+constexpr std::size_t few_before_gap = 6;  // points: fewer hide nothing
 
 struct Gap {
   std::size_t face;
@@ -42,7 +42,7 @@ bool has_clean_rim(const FaceMask& mask, double spacing, const Eigen::AlignedBox
       band.min()[axis] = box.max()[axis] + near;
       band.max()[axis] = box.max()[axis] + far;
     }
-    if (solid_share(mask, band) < least_side) return false;
+    if (solid_share(mask, band) < least_gap_side) return false;
   }
   return true;
 }
@@ -55,8 +55,8 @@ FaceMask all_empty(FaceMask mask) {
   return mask;
 }
 
-void find_in(std::size_t face, const FaceMask& mask, const FaceEvidence& evidence, const std::vector<FaceHole>& found,
-             const Openings::Params& params, std::vector<Gap>& gaps) {
+void find_gaps(std::size_t face, const FaceMask& mask, const FaceEvidence& evidence, const std::vector<FaceHole>& found,
+               const Openings::Params& params, std::vector<Gap>& gaps) {
   FaceMask left = all_empty(mask);
   const double pixel = mask.pixel();
   const double least = 0.5 * std::max(params.min_width / pixel, 1.0) * std::max(params.min_height / pixel, 1.0);
@@ -71,7 +71,7 @@ void find_in(std::size_t face, const FaceMask& mask, const FaceEvidence& evidenc
       hole.box = {mask.centre(squares->min().x(), squares->min().y()) - half,
                   mask.centre(squares->max().x(), squares->max().y()) + half};
       const Eigen::Vector2d size = hole.box.sizes();
-      const bool fits = size.x() >= params.min_width && size.y() >= params.min_height && size.x() <= widest;
+      const bool fits = size.x() >= params.min_width && size.y() >= params.min_height && size.x() <= widest_gap;
       const bool known = std::any_of(found.begin(), found.end(),
                                      [&](const FaceHole& other) { return other.box.intersects(hole.box); });
       if (filled && fits && !known && has_clean_rim(mask, evidence.spacing, hole.box)) gaps.push_back({face, hole});
@@ -85,19 +85,19 @@ std::vector<FaceHole> blank_gaps(const Building& building, const Cloud& cloud, c
   std::vector<Gap> gaps;
   for (std::size_t f = 0; f < masks.size(); ++f)
     if (evidence[f].looked_at() && building.faces[f].surface == SurfaceClass::wall && building.faces[f].primitive >= 0)
-      find_in(f, masks[f], evidence[f], found[f], params, gaps);
+      find_gaps(f, masks[f], evidence[f], found[f], params, gaps);
   if (gaps.empty()) return {};
   for (const auto& point : cloud.points) {
     const Eigen::Vector3d p = point.cast<double>();
     for (Gap& gap : gaps) {
       const double distance = building.faces[gap.face].plane.signed_distance(p);
-      if (distance > before || distance < 2 * evidence[gap.face].tolerance) continue;
+      if (distance > before_gap || distance < 2 * evidence[gap.face].tolerance) continue;
       gap.in_front += gap.hole.box.contains(gap.hole.frame.to_plane(p)) ? 1 : 0;
     }
   }
   std::vector<FaceHole> result;
   for (auto& gap : gaps)
-    if (gap.in_front < few) result.push_back(std::move(gap.hole));
+    if (gap.in_front < few_before_gap) result.push_back(std::move(gap.hole));
   return result;
 }
 

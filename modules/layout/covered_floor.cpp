@@ -11,15 +11,15 @@
 namespace atrium::layout {
 namespace {
 
-constexpr double least_square = 0.25;  // metres
-constexpr double headroom = 1.8;       // metres
-constexpr double highest = 20;         // metres
-constexpr double enough = 0.6;         // of the height that a room must have
-constexpr double least_piece = 2;      // square metres
-constexpr double faces_up = 0.9;       // cosine
-constexpr double faces_down = 0.5;     // cosine: ceilings may be slopes of up to 60 degrees
+constexpr double least_square = 0.25;   // metres
+constexpr double least_headroom = 1.8;  // metres
+constexpr double highest = 20;          // metres
+constexpr double enough = 0.6;          // of the height that a room must have
+constexpr double least_piece = 2;       // square metres
+constexpr double lies_up = 0.9;         // cosine
+constexpr double faces_down = 0.5;      // cosine: ceilings may be slopes of up to 60 degrees
 
-struct Level {
+struct CoveredLevel {
   float z;
   bool up;
 };
@@ -27,9 +27,9 @@ struct Span {
   double low, high;
 };
 
-class Squares {
+class CoveredSquares {
  public:
-  Squares(const Building& building, const PlanePrimitives& planes) : building_(building), planes_(planes) {
+  CoveredSquares(const Building& building, const PlanePrimitives& planes) : building_(building), planes_(planes) {
     Eigen::AlignedBox2d box;
     for (const auto& primitive : planes.primitives)
       if (is_level(primitive))
@@ -75,7 +75,7 @@ class Squares {
 
   static bool is_level(const PlanePrimitive& primitive) {
     const double z = primitive.plane.normal.z();
-    return z > faces_up || z < -faces_down;
+    return z > lies_up || z < -faces_down;
   }
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
@@ -132,19 +132,19 @@ class Squares {
   }
 
   /// The height of a floor if it and the next ceiling over it, further apart than a person is high, are in no room.
-  static std::optional<double> floor_without_room(std::vector<Level>& levels, const std::vector<Span>& rooms) {
-    std::sort(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.z < b.z; });
+  static std::optional<double> floor_without_room(std::vector<CoveredLevel>& levels, const std::vector<Span>& rooms) {
+    std::sort(levels.begin(), levels.end(), [](const CoveredLevel& a, const CoveredLevel& b) { return a.z < b.z; });
     for (std::size_t c = 0; c < levels.size(); ++c) {
       if (levels[c].up) continue;
       // The lowest floor since the last ceiling: what stands on it is furniture.
       double floor = 1e300;
       for (std::size_t f = 0; f < c; ++f) {
         const bool lower = levels[f].up ? levels[f].z < floor : false;
-        if (!levels[f].up && floor < 1e300 && levels[f].z - floor > headroom) floor = 1e300;
+        if (!levels[f].up && floor < 1e300 && levels[f].z - floor > least_headroom) floor = 1e300;
         if (lower) floor = levels[f].z;
       }
       const double between = levels[c].z - floor;
-      if (!(between >= headroom) || between > highest) continue;
+      if (!(between >= least_headroom) || between > highest) continue;
       const bool held = std::any_of(rooms.begin(), rooms.end(), [&](const Span& room) {
         return std::min<double>(room.high, levels[c].z) - std::max(room.low, floor) >= enough * between;
       });
@@ -183,7 +183,7 @@ class Squares {
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
   double edge_ = least_square;
   int width_ = 0, height_ = 0;
-  std::vector<std::vector<Level>> levels_;
+  std::vector<std::vector<CoveredLevel>> levels_;
   std::vector<std::vector<Span>> rooms_;
   std::vector<std::optional<double>> floors_;  // of what is missing
   std::vector<std::uint8_t> missing_;          // 1: missing, 2: missing and taken
@@ -192,7 +192,7 @@ class Squares {
 }  // namespace
 
 CoveredFloor covered_floor_without_room(const Building& building, const PlanePrimitives& planes) {
-  return Squares(building, planes).run();
+  return CoveredSquares(building, planes).run();
 }
 
 }  // namespace atrium::layout

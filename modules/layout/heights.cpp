@@ -281,10 +281,10 @@ void settle(StoreyCells& storey, double slack, const Heights::Params& params) {
   Labelling ceilings(storey, storey.ceilings, slack, params);
   ceilings.set_costs(covers, [&](const LayoutCell& cell, std::size_t s) {
     const auto& floor = storey.floors[static_cast<std::size_t>(cell.floor)];
-    const bool shown = std::any_of(cell.ceilings.begin(), cell.ceilings.end(), [&](const auto& c) {
+    const bool covered = std::any_of(cell.ceilings.begin(), cell.ceilings.end(), [&](const auto& c) {
       return static_cast<std::size_t>(c.surface) == s && c.share > 0.5;
     });
-    return !shown && clearance(storey, cell, floor, storey.ceilings[s]) < params.min_clearance;
+    return !covered && clearance(storey, cell, floor, storey.ceilings[s]) < params.min_clearance;
   });
   ceilings.prefer(inferred, covers);
   const auto ceiling_of = ceilings.solve(covers);

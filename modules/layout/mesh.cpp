@@ -1,23 +1,15 @@
 #include "modules/layout/mesh.hpp"
 
 #include <Eigen/Geometry>
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/multi_polygon.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
 #include <map>
 
 #include "modules/geometry/ear_clipping.hpp"
+#include "modules/geometry/plan_overlay.hpp"
 #include "modules/geometry/plane_frame.hpp"
 #include "modules/types/palette.hpp"
 
 namespace atrium::layout {
 namespace {
-
-namespace bg = boost::geometry;
-using Point = bg::model::d2::point_xy<double>;
-using Polygon = bg::model::polygon<Point, false, false>;  // counter-clockwise, open
-using Polygons = bg::model::multi_polygon<Polygon>;
 
 /// A mesh that grows face by face.
 class Surface {
@@ -99,43 +91,20 @@ class Meshing {
     return result;
   }
 
-  static Polygon to_polygon(const PlanPolygon& source) {
-    Polygon result;
-    for (const auto& p : source.outline) bg::append(result.outer(), Point(p.x(), p.y()));
-    for (const auto& hole : source.holes) {
-      result.inners().emplace_back();
-      for (const auto& p : hole) bg::append(result.inners().back(), Point(p.x(), p.y()));
-    }
-    return result;
-  }
-  static PlanPolygon to_plan(const Polygon& source) {
-    PlanPolygon result;
-    for (const auto& p : source.outer()) result.outline.emplace_back(p.x(), p.y());
-    for (const auto& hole : source.inners()) {
-      result.holes.emplace_back();
-      for (const auto& p : hole) result.holes.back().emplace_back(p.x(), p.y());
-    }
-    return result;
-  }
-
   void cut_out(std::size_t f, const PlaneFrame& frame, const PlanPolygon& polygon, const std::vector<PlanRing>& cuts) {
     if (cuts.empty()) {
       add_polygon(structure_, f, frame, polygon, building_.faces[f].surface);
       return;
     }
-    Polygons rest{to_polygon(polygon)};
-    Polygons panes;
+    std::vector<PlanPolygon> rest{polygon}, panes;
     for (const auto& cut : cuts) {
-      Polygon hole = to_polygon({cut, {}});
-      bg::correct(hole);
-      Polygons next, pane;
-      bg::intersection(rest, hole, pane);
-      bg::difference(rest, hole, next);
-      rest = std::move(next);
+      const PlanPolygon hole = overlay::corrected({cut, {}});
+      const auto pane = overlay::intersection(rest, hole);
+      rest = overlay::difference(rest, hole);
       panes.insert(panes.end(), pane.begin(), pane.end());
     }
-    for (const auto& part : rest) add_polygon(structure_, f, frame, to_plan(part), building_.faces[f].surface);
-    for (const auto& part : panes) add_polygon(openings_, f, frame, to_plan(part), SurfaceClass::object);
+    for (const auto& part : rest) add_polygon(structure_, f, frame, part, building_.faces[f].surface);
+    for (const auto& part : panes) add_polygon(openings_, f, frame, part, SurfaceClass::object);
   }
 
   void add_polygon(Surface& surface, std::size_t f, const PlaneFrame& frame, const PlanPolygon& polygon,

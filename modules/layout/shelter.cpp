@@ -10,9 +10,9 @@ namespace atrium::layout {
 namespace {
 
 constexpr int most_places = 64;  // of a floor
-constexpr int directions = 16;
-constexpr double chest = 1.2;       // metres over the floor: most walls are seen there
-constexpr double least_wall = 0.5;  // m²: smaller upright planes enclose nothing
+constexpr int shelter_directions = 16;
+constexpr double chest = 1.2;            // metres over the floor: most walls are seen there
+constexpr double least_wall_area = 0.5;  // m²: smaller upright planes enclose nothing
 
 double height_at(const Plane& plane, const Eigen::Vector2d& p) {
   return -(plane.normal.x() * p.x() + plane.normal.y() * p.y() + plane.offset) / plane.normal.z();
@@ -66,7 +66,7 @@ Shelter::Shelter(const PlanePrimitives& planes, const std::vector<Footprint>& fo
       if (plane.normal.z() < 0) down_.push_back(i);
       continue;
     }
-    if (f.raster.area() < least_wall) continue;
+    if (f.raster.area() < least_wall_area) continue;
     const double flat = plane.normal.head<2>().norm();
     const double middle = (f.raster.low.y() + f.raster.high().y()) / 2;
     const Eigen::Vector2d normal = plane.normal.head<2>() / flat;
@@ -111,11 +111,11 @@ double Shelter::enclosed(std::size_t floor) const {
   if (places.empty()) return 0;
   std::size_t facing = 0;
   for (const auto& p : places)
-    for (int k = 0; k < directions; ++k) {
-      const double angle = (k + 0.5) * 2 * std::numbers::pi / directions;
+    for (int k = 0; k < shelter_directions; ++k) {
+      const double angle = (k + 0.5) * 2 * std::numbers::pi / shelter_directions;
       facing += faces(p, {std::cos(angle), std::sin(angle)}, height_at(planes_.primitives[floor].plane, p) + chest);
     }
-  return static_cast<double>(facing) / static_cast<double>(directions * static_cast<int>(places.size()));
+  return static_cast<double>(facing) / static_cast<double>(shelter_directions * static_cast<int>(places.size()));
 }
 
 /// Whether a wall that stands on this height looks towards p and is near it.

@@ -27,7 +27,7 @@ struct Level {
 constexpr double main_share = 0.5;        // of the largest floor: as large as one
 constexpr double least_large = 2.0;       // m²: what may be a slab at all
 constexpr double lower_ceilings = 0.5;    // metres under the main one, where no floor tells what is a ceiling
-constexpr double step = 0.25;             // metres: a floor so little higher needs no walls around it
+constexpr double low_step = 0.25;         // metres: a floor so little higher needs no walls around it
 constexpr double least_raised = 3.0;      // m²: a smaller level surface over the floor is furniture
 constexpr double least_walled = 0.7;      // of the rim of a raised floor; a bed in a corner has half
 constexpr double least_sheltered = 0.25;  // of a floor: less of it than this is the ground outside
@@ -131,7 +131,7 @@ class Finder {
   /// Whether the floor goes on under much of it: then it is a table, or many.
   bool stands_on(const Level& l, const Level& floor) const {
     constexpr double much = 0.3;
-    if (&l == &floor || l.height <= floor.height + step || l.height >= floor.height + params_.min_clearance)
+    if (&l == &floor || l.height <= floor.height + low_step || l.height >= floor.height + params_.min_clearance)
       return false;
     const Raster high = filled(l.primitive), low = filled(floor.primitive);
     int all = 0, both = 0;
@@ -226,7 +226,7 @@ class Finder {
       if (storey_of(l.height) != storey || l.area < params_.min_area || !is_wide(l)) continue;
       if (l.up && l.sheltered < least_sheltered) continue;
       const bool is_floor = l.up && main_floor != nullptr && !stands_on(l, *main_floor) &&
-                            (l.height <= ground + (l.raised ? params_.max_step : step) ||
+                            (l.height <= ground + (l.raised ? params_.max_step : low_step) ||
                              ((l.area >= main_share * main_floor->area || l.raised) &&
                               ((main_ceiling != nullptr && main_ceiling->height - l.height >= params_.min_clearance) ||
                                has_ceiling_of_its_own(l))));

@@ -2,13 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/multi_polygon.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "modules/geometry/plan_overlay.hpp"
 #include "modules/geometry/plane_frame.hpp"
 #include "modules/layout/face_rings.hpp"
 #include "modules/types/building_rules.hpp"
@@ -16,28 +13,20 @@
 namespace atrium::layout {
 namespace {
 
-namespace bg = boost::geometry;
-using Point = bg::model::d2::point_xy<double>;
-using Polygon = bg::model::polygon<Point, false, false>;  // counter-clockwise, open
-
 Eigen::AlignedBox2d box_in(const Building& building, const BuildingFace& face, const PlaneFrame& frame) {
   Eigen::AlignedBox2d box;
   for (const auto v : face.outline) box.extend(frame.to_plane(building.vertices[v]));
   return box;
 }
 
-Polygon polygon_in(const Building& building, const BuildingFace& face, const PlaneFrame& frame) {
-  const auto append = [&](const Ring& corners, auto& ring) {
-    for (const auto v : corners) {
-      const Eigen::Vector2d p = frame.to_plane(building.vertices[v]);
-      bg::append(ring, Point(p.x(), p.y()));
-    }
+PlanPolygon polygon_in(const Building& building, const BuildingFace& face, const PlaneFrame& frame) {
+  const auto append = [&](const Ring& corners, PlanRing& ring) {
+    for (const auto v : corners) ring.push_back(frame.to_plane(building.vertices[v]));
   };
-  Polygon result;
-  append(face.outline, result.outer());
-  for (const auto& hole : face.holes) append(hole, result.inners().emplace_back());
-  bg::correct(result);  // seen from behind it runs the other way
-  return result;
+  PlanPolygon result;
+  append(face.outline, result.outline);
+  for (const auto& hole : face.holes) append(hole, result.holes.emplace_back());
+  return overlay::corrected(result);  // seen from behind it runs the other way
 }
 
 /// What two polygons have in common.
@@ -45,13 +34,10 @@ struct Shared {
   double area = 0;
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
 };
-Shared shared_of(const Polygon& a, const Polygon& b) {
-  bg::model::multi_polygon<Polygon> both;
-  bg::intersection(a, b, both);
-  Shared result{bg::area(both), {}};
-  if (!(result.area > 0)) return result;
-  const auto centroid = bg::return_centroid<Point>(both);
-  result.centroid = {centroid.x(), centroid.y()};
+Shared shared_of(const PlanPolygon& a, const PlanPolygon& b) {
+  const auto both = overlay::intersection({a}, b);
+  Shared result{overlay::area(both), {}};
+  if (result.area > 0) result.centroid = overlay::centroid(both);
   return result;
 }
 

@@ -2,21 +2,17 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <set>
 #include <string>
 
+#include "modules/geometry/plan_overlay.hpp"
+
 namespace atrium::metric {
 namespace {
 
-namespace bg = boost::geometry;
-using Point = bg::model::d2::point_xy<double>;
-using Polygon = bg::model::polygon<Point, false, false>;  // counter-clockwise, not closed
 using Outline = std::vector<Eigen::Vector3d>;
 
 // Where the true wall is, and how to look at it.
@@ -29,11 +25,10 @@ struct Wall {
     right = normal.unitOrthogonal();
     up = normal.cross(right);
   }
-  Polygon projected(const Outline& outline) const {
-    Polygon polygon;
-    for (const auto& p : outline) polygon.outer().emplace_back(right.dot(p - place), up.dot(p - place));
-    bg::correct(polygon);
-    return polygon;
+  PlanPolygon projected(const Outline& outline) const {
+    PlanPolygon polygon;
+    for (const auto& p : outline) polygon.outline.emplace_back(right.dot(p - place), up.dot(p - place));
+    return overlay::corrected(polygon);
   }
   // From the space between the wall's faces to the middle of the outline.
   double distance(const Outline& outline) const {
@@ -43,18 +38,16 @@ struct Wall {
   }
 };
 
-double shared(const Polygon& a, const Polygon& b) {
-  std::vector<Polygon> common;
-  bg::intersection(a, b, common);
-  double both = 0;
-  for (const auto& piece : common) both += bg::area(piece);
-  return both / (bg::area(a) + bg::area(b) - both);
+double shared(const PlanPolygon& a, const PlanPolygon& b) {
+  const double both = overlay::area(overlay::intersection({a}, b));
+  return both / (overlay::area(a) + overlay::area(b) - both);
 }
 
 bool is_simple(const Outline& outline, const std::string& what) {
   for (const auto& p : outline)
     if (!p.allFinite()) throw Error(what + " has a corner that is not finite");
-  return outline.size() > 2 && area_vector(outline).norm() > 0 && bg::is_valid(Wall(outline, 0).projected(outline));
+  return outline.size() > 2 && area_vector(outline).norm() > 0 &&
+         overlay::is_valid(Wall(outline, 0).projected(outline));
 }
 
 // Intersection over union as seen on the true wall; 0 where the planes do not fit.

@@ -2,50 +2,37 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <string>
 
+#include "modules/geometry/plan_overlay.hpp"
 #include "modules/metric/outline_corners.hpp"
 
 namespace atrium::metric {
 namespace {
 
-namespace bg = boost::geometry;
-using Point = bg::model::d2::point_xy<double>;
-using Polygon = bg::model::polygon<Point, false, false>;  // counter-clockwise, not closed
-
 struct Room {
-  Polygon polygon;
+  PlanPolygon polygon;
   std::vector<Eigen::Vector2d> corners;
   double floor = 0;
   bool valid = true;
-  double area() const { return valid ? bg::area(polygon) : 0; }
+  double area() const { return valid ? overlay::area(polygon) : 0; }
 };
 
 Room room_of(const PlanPolygon& polygon, double floor, const std::string& what) {
   Room room;
   room.floor = floor;
-  const auto fill = [&](auto& ring, const PlanRing& from) {
-    for (const auto& p : from) {
+  const auto check = [&](const PlanRing& ring) {
+    for (const auto& p : ring)
       if (!p.allFinite()) throw Error(what + " has a corner that is not finite");
-      ring.emplace_back(p.x(), p.y());
-    }
   };
-  fill(room.polygon.outer(), polygon.outline);
-  for (const auto& hole : polygon.holes) {
-    room.polygon.inners().emplace_back();
-    fill(room.polygon.inners().back(), hole);
-  }
-  bg::correct(room.polygon);
-  room.valid = polygon.outline.size() > 2 && bg::is_valid(room.polygon);
-  std::vector<Eigen::Vector2d> ring;
-  for (const auto& p : room.polygon.outer()) ring.emplace_back(p.x(), p.y());
-  room.corners = corners_of(std::move(ring));
+  check(polygon.outline);
+  for (const auto& hole : polygon.holes) check(hole);
+  room.polygon = overlay::corrected(polygon);
+  room.valid = polygon.outline.size() > 2 && overlay::is_valid(room.polygon);
+  room.corners = corners_of(room.polygon.outline);
   return room;
 }
 
@@ -107,10 +94,7 @@ ToPlan between(const FloorPlan& from, const FloorPlan& plan) {
 }
 
 double overlap_share(const Room& a, const Room& b) {
-  std::vector<Polygon> common;
-  bg::intersection(a.polygon, b.polygon, common);
-  double both = 0;
-  for (const auto& piece : common) both += bg::area(piece);
+  const double both = overlay::area(overlay::intersection({a.polygon}, b.polygon));
   return both / (a.area() + b.area() - both);
 }
 

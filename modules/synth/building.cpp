@@ -2,21 +2,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "graph/api/error.hpp"
+#include "modules/geometry/plan_overlay.hpp"
 #include "modules/geometry/triangulate.hpp"
 
 namespace atrium::synth {
 namespace {
-
-namespace bg = boost::geometry;
-using Point = bg::model::d2::point_xy<double>;
-using Polygon = bg::model::polygon<Point, false, false>;  // counter-clockwise, not closed
 
 constexpr Colour floor_colour{166, 124, 82}, ceiling_colour{240, 240, 236}, reveal_colour{225, 222, 214},
     door_colour{196, 164, 120};
@@ -97,27 +91,16 @@ Rectangle Building::on_wall(int face, const Eigen::Vector2d& centre, double widt
 }
 
 void Building::cut(Face& face, const Ring2& hole_ring) {
-  Polygon polygon, hole;
-  for (std::size_t i = 0; i < face.rings.size(); ++i) {
-    if (i > 0) polygon.inners().emplace_back();
-    auto& ring = i == 0 ? polygon.outer() : polygon.inners().back();
-    for (const auto& p : face.rings[i]) ring.emplace_back(p.x(), p.y());
-  }
-  for (const auto& p : hole_ring) hole.outer().emplace_back(p.x(), p.y());
-  bg::correct(hole);
-  if (!bg::covered_by(hole, polygon))
+  PlanPolygon polygon{face.rings.front(), {}};
+  polygon.holes.assign(face.rings.begin() + 1, face.rings.end());
+  const PlanPolygon hole = overlay::corrected({hole_ring, {}});
+  if (!overlay::covers(polygon, hole))
     throw Error("an opening does not fit into its wall, floor or ceiling",
                 "make the scene larger or the opening smaller, so that openings lie in their faces and apart");
-  std::vector<Polygon> rest;
-  bg::difference(polygon, hole, rest);
+  const auto rest = overlay::difference({polygon}, hole);
   if (rest.size() != 1) throw Error("an opening cuts its wall in two", "make the opening smaller than the wall");
-  face.rings.clear();
-  const auto keep = [&](const auto& ring) {
-    face.rings.emplace_back();
-    for (const auto& p : ring) face.rings.back().emplace_back(p.x(), p.y());
-  };
-  keep(rest[0].outer());
-  for (const auto& inner : rest[0].inners()) keep(inner);
+  face.rings = {rest[0].outline};
+  face.rings.insert(face.rings.end(), rest[0].holes.begin(), rest[0].holes.end());
 }
 
 TrueOpening Building::opening_of(const std::string& kind, int face, const Rectangle& rectangle) const {

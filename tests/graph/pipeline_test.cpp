@@ -248,5 +248,15 @@ TEST_F(PipelineFile, TakesAnyTextAsASettingWithoutBreaking) {
   }
 }
 
+TEST_F(PipelineFile, SaysWhichPluginsAreNotBuilt) {
+  const LoadResult result = load_text(R"(atrium: 1
+nodes:
+  a: {type: refine.vertex_translation}
+)");
+  EXPECT_NE(messages(result).find("'refine.vertex_translation' is not built: the plugin 'refine' was left out"),
+            std::string::npos);
+  EXPECT_NE(messages(result).find("./share/build"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace atrium

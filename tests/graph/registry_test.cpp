@@ -56,8 +56,8 @@ TEST(Registry, ListsAllTypesAndWhatCannotBeLoaded) {
   std::vector<std::string> problems;
   const auto types = registry.all(&problems);
   EXPECT_EQ(problems.size(), 3U);
-  ASSERT_EQ(types.size(), 5U);
-  EXPECT_EQ(types[2]->type, "test.find");
+  ASSERT_EQ(types.size(), 6U);
+  EXPECT_EQ(types[3]->type, "test.find");
 }
 
 TEST(Registry, LoadsTheSecondLibraryOfALazyPluginWhenANodeRuns) {
@@ -73,6 +73,20 @@ TEST(Registry, LoadsTheSecondLibraryOfALazyPluginWhenANodeRuns) {
   std::filesystem::copy(plugins / "libatrium_lazy.so", folder.path());
   Registry alone(Folders{folder.path()});
   EXPECT_THROW(alone.find("lazy.double")->run({}, {ParamValue(1.0)}, context), PluginError);
+}
+
+TEST(Registry, SaysWhatIsNotBuilt) {
+  EXPECT_EQ(Registry::missing_library(*Registry(Folders{plugins}).find("lazy.double")), "");
+  test::Folder folder;
+  std::filesystem::copy(plugins / "libatrium_lazy.so", folder.path());
+  Registry alone(Folders{folder.path()});
+  EXPECT_EQ(Registry::missing_library(*alone.find("lazy.double")), (folder.path() / "libatrium_lazy-run.so").string());
+  EXPECT_EQ(Registry::missing_library(*alone.find("lazy.light")), "");
+  Context context;
+  EXPECT_EQ(*static_cast<const double*>(alone.find("lazy.light")->run({}, {}, context).at(0).data.get()), 1.0);
+  EXPECT_TRUE(alone.is_left_out("refine"));
+  EXPECT_FALSE(alone.is_left_out("lazy"));
+  EXPECT_FALSE(alone.is_left_out("nowhere"));
 }
 
 TEST(Registry, TakesTheFirstFolderThatHasTheModule) {

@@ -1,6 +1,9 @@
 // share/quickstart as a newcomer starts it, but for the packages and the build, which are there.
 #include <gtest/gtest.h>
 
+#include <regex>
+#include <set>
+
 #include "tests/pipelines/steps.hpp"
 
 namespace atrium::test {
@@ -53,6 +56,28 @@ TEST_F(Quickstart, EndsWithTheCodeOfWhatFails) {
   EXPECT_EQ(start({"one", "two"}).exit_code, 2);
   write_text(checkout / "scan.ply", "no scan");
   EXPECT_NE(start({"scan.ply"}).exit_code, 0);
+}
+
+std::set<std::string> matches(const std::string& text, const std::string& pattern) {
+  const std::regex expression(pattern);
+  std::set<std::string> found;
+  for (std::sregex_iterator i(text.begin(), text.end(), expression), end; i != end; ++i) found.insert((*i)[1]);
+  return found;
+}
+
+TEST_F(Quickstart, BuildsThePluginsThatItsPipelinesName) {
+  const std::string list = read_text(source / "modules/CMakeLists.txt");
+  const auto lists = matches(list, "set\\(quickstart_modules ([^)]*)\\)");
+  ASSERT_EQ(lists.size(), 1U);
+  auto built = matches(*lists.begin(), "([a-z_]+)");
+  built.insert("object");  // whose light library has object.none
+  std::set<std::string> needed;
+  for (const char* pipeline : {"simulate.yaml", "atrium.yaml"})
+    needed.merge(matches(read_text(source / "pipelines" / pipeline), "type: ([a-z_]+)\\.[a-z_]+[,}\n]"));
+  ASSERT_GT(needed.size(), 5U);
+  EXPECT_EQ(built, needed);
+  EXPECT_EQ(matches(read_text(source / "pipelines/atrium.yaml"), "type: object\\.([a-z_]+)"),
+            std::set<std::string>{"none"});
 }
 
 }  // namespace

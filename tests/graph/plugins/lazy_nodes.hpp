@@ -33,4 +33,19 @@ struct Forgotten {
   static Out run(const In& in, const Params& params, Context& context);
 };
 
+/// Its function stands beside the tables.
+struct Light {
+  static constexpr std::string_view type = "lazy.light";
+  static constexpr std::string_view summary = "Gives one.";
+  struct In {};
+  struct Out {
+    double result = 0;
+  };
+  struct Params {};
+  static constexpr auto inputs = std::tuple{};
+  static constexpr auto outputs = std::tuple{port(&Out::result, "result", "")};
+  static constexpr auto params = std::tuple{};
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
 }  // namespace atrium::lazy
