@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
-#include <cstdlib>
 #include <numeric>
 
 #include "modules/layout/coverage.hpp"
@@ -216,22 +215,6 @@ Rooms::Out Rooms::run(const In& in, const Params& params, Context& context) {
     context.check_cancelled();
     StoreyCells& storey = out.cells.storeys[s];
     for (auto& cell : storey.cells) cell.room = -1;
-    if (std::getenv("DBG")) {  // DBG
-      for (auto& c : storey.cells) {
-        Eigen::Vector2d m(0, 0);
-        for (auto k : c.corners) m += storey.vertices[k];
-        m /= c.corners.size();
-        fmt::print(stderr, "cell {:.2f} {:.2f} area {:.2f} floor {:.2f} ceil {:.2f} any {:.2f} encl {:.2f}\n", m.x(),
-                   m.y(), c.area, c.floor_cover, c.ceiling_cover, c.any_cover, c.enclosed);
-      }
-      for (auto& e : storey.edges) {
-        auto a = storey.vertices[e.from], b = storey.vertices[e.to];
-        fmt::print(
-            stderr, "edge {:.2f} {:.2f} - {:.2f} {:.2f} face {:.2f} {:.2f} wall {:.2f} {:.2f} top {:.2f} {:.2f}\n",
-            a.x(), a.y(), b.x(), b.y(), e.face_left, e.face_right, e.wall_left, e.wall_right, e.top_left, e.top_right);
-      }
-      fmt::print(stderr, "height {} {}\n", storey.floor_height, storey.ceiling_height);
-    }  // DBG
     auto inside = Energy(storey, params).solve();
     level_details(storey, params.min_detail, inside);
     auto found = connected(storey, s, inside);

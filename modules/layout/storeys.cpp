@@ -143,6 +143,21 @@ class Finder {
       }
     return both > much * all;
   }
+  /// Whether a level ceiling covers a space too low to stand in over another ceiling, whose upper side was seen: the
+  /// void over a suspended ceiling, or under a roof.
+  bool over_a_slab(const Level& l, double ground) const {
+    if (l.slanted) return false;
+    return std::any_of(levels_.begin(), levels_.end(), [&](const Level& ceiling) {
+      if (ceiling.up || ceiling.slanted || ceiling.height < ground + params_.min_clearance) return false;
+      if (ceiling.height >= l.height || l.height - ceiling.height >= params_.min_clearance) return false;
+      if (ceiling.area < main_share * l.area || overlap(ceiling, l) < main_share * l.area) return false;
+      return std::any_of(levels_.begin(), levels_.end(), [&](const Level& top) {
+        constexpr double slack = 0.05;  // metres: models may have slabs without thickness
+        return top.up && top.area >= least_large && top.height > ceiling.height - slack &&
+               top.height < l.height - slack && overlap(top, l) >= least_large;
+      });
+    });
+  }
   bool room_below(const Level& ceiling) const {
     return std::any_of(levels_.begin(), levels_.end(), [&](const Level& l) {
       return l.up && large(l) && ceiling.height - l.height >= params_.min_clearance &&
@@ -230,7 +245,8 @@ class Finder {
                              ((l.area >= main_share * main_floor->area || l.raised) &&
                               ((main_ceiling != nullptr && main_ceiling->height - l.height >= params_.min_clearance) ||
                                has_ceiling_of_its_own(l))));
-      const bool is_ceiling = !l.up && (l.slanted ? l.top : l.height) >= ground + params_.min_clearance;
+      const bool is_ceiling =
+          !l.up && (l.slanted ? l.top : l.height) >= ground + params_.min_clearance && !over_a_slab(l, ground);
       if (!is_floor && !is_ceiling) continue;
       result.classes[l.primitive] = is_floor ? SurfaceClass::floor : SurfaceClass::ceiling;
       result.storeys[l.primitive] = storey;
