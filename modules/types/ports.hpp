@@ -18,10 +18,12 @@
 
 /// How the values on the edges are hashed, measured and stored is compiled once, in modules/types/ports_*.cpp: what
 /// would compile it for itself, a plugin's tables, includes this first. A type with no line here works all the same.
+// NOLINTBEGIN(bugprone-macro-parentheses): a type in parentheses is none.
 #define ATRIUM_PORT(keyword, type)                                        \
   keyword template std::string atrium::content_hash(const atrium::type&); \
   keyword template std::size_t atrium::byte_size(const atrium::type&);    \
   keyword template const atrium::FlatType* atrium::flat_type<atrium::type>()
+// NOLINTEND(bugprone-macro-parentheses)
 
 ATRIUM_PORT(extern, Adjacency);
 ATRIUM_PORT(extern, Building);
