@@ -10,7 +10,6 @@ namespace {
 
 constexpr double least_seen = 0.3;  // of an edge's length: less is no wall
 constexpr double furthest = 20;     // metres
-constexpr double least_top = 0.6;   // of the storey's height: what ends lower is furniture
 constexpr int directions = 16;
 
 /// The walls of a storey in squares, seen from above.
@@ -53,7 +52,7 @@ class WallMap {
  private:
   static bool is_low(const StoreyCells& storey, const CellEdge& edge) {
     const double top = std::max(edge.top_left, edge.top_right);
-    return top < storey.floor_height + least_top * (storey.ceiling_height - storey.floor_height);
+    return top < least_wall_top(storey.floor_height, storey.ceiling_height);
   }
 
   std::int32_t* at(const Eigen::Vector2d& p) {

@@ -8,4 +8,7 @@ namespace atrium::layout {
 /// walls. Edges must have been measured. Cost: 16 ways of at most 20 m for each cell, on squares of 10 cm or more.
 void measure_enclosure(StoreyCells& storey);
 
+/// The height at which a wall ends at least: what ends below 60 % of a storey's height is furniture. Metres.
+inline double least_wall_top(double floor, double ceiling) { return floor + 0.6 * (ceiling - floor); }
+
 }  // namespace atrium::layout

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "modules/layout/coverage.hpp"
+#include "modules/layout/enclosure.hpp"
 #include "modules/layout/hidden_walls.hpp"
 #include "modules/layout/min_cut.hpp"
 
@@ -71,8 +72,7 @@ class Energy {
 
   /// Where no ceiling was scanned, walls end at different heights: those that are tall may end a room.
   double ends_room(double wall, double face, double top) const {
-    constexpr double least = 0.6;  // of the storey's height
-    const bool tall = top >= storey_.floor_height + least * (storey_.ceiling_height - storey_.floor_height);
+    const bool tall = top >= least_wall_top(storey_.floor_height, storey_.ceiling_height);
     return !ceiling_ && tall ? std::max(wall, face) : wall;
   }
 

@@ -2,20 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
-#include <optional>
 
 #include "graph/api/error.hpp"
+#include "modules/layout/end_lines.hpp"
 
 namespace atrium::layout {
 namespace {
 
 constexpr double far = 1e9;
-constexpr double unseen_strip = 0.25;  // metres before a wall: scans mostly end before it
 
 class Storey {
  public:
@@ -36,7 +35,8 @@ class Storey {
     join_surfaces(planes_.ceilings, min_gap);
     settle_heights();
     join_lines(min_gap);
-    add_end_lines();
+    auto ends = end_lines(planes_, footprints_);
+    std::move(ends.begin(), ends.end(), std::back_inserter(planes_.lines));
     add_meeting_lines(planes_.ceilings, planes_.ceilings);
     add_meeting_lines(planes_.ceilings, planes_.floors);
     return std::move(planes_);
@@ -107,112 +107,6 @@ class Storey {
       if (sum >= share * total) return v.first;
     }
     return values.back().first;
-  }
-
-  /// Where a scan ends, no wall does: lines at the four ends of the floors and of the ceilings, along the axes, on the
-  /// sides where they mostly end far from any wall. What ends there is inferred.
-  void add_end_lines() {
-    constexpr int steps = 64;           // in which each end is looked at
-    constexpr double mostly = 0.4;      // of the steps
-    constexpr double outermost = 0.02;  // of the steps: stray points lie further out
-    const std::vector<WallLine> walls = planes_.lines;
-    for (const auto* surfaces : {&planes_.floors, &planes_.ceilings}) {
-      Eigen::AlignedBox2d box;
-      each_square(*surfaces, [&](const Eigen::Vector2d& p) { box.extend(p); });
-      if (box.isEmpty() || box.sizes().minCoeff() <= 0) continue;
-      for (int axis = 0; axis < 2; ++axis)
-        for (const double side : {-1.0, 1.0}) {
-          std::vector<std::optional<Eigen::Vector2d>> ends(steps + 1);
-          each_square(*surfaces, [&](const Eigen::Vector2d& p) {
-            const double share = (p[1 - axis] - box.min()[1 - axis]) / box.sizes()[1 - axis];
-            auto& end = ends[static_cast<std::size_t>(share * steps)];
-            if (!end || side * p[axis] > side * (*end)[axis]) end = p;
-          });
-          std::erase_if(ends, [](const auto& end) { return !end; });
-          const auto open = std::count_if(ends.begin(), ends.end(), [&](const auto& p) { return !at_wall(walls, *p); });
-          if (static_cast<double>(open) <= mostly * static_cast<double>(ends.size())) continue;
-          std::sort(ends.begin(), ends.end(),
-                    [&](const auto& a, const auto& b) { return side * (*a)[axis] > side * (*b)[axis]; });
-          const double place = (*ends[static_cast<std::size_t>(outermost * static_cast<double>(ends.size()))])[axis];
-          if (!along_wall(walls, axis, place, box))
-            add_end_line(axis, side, end_of_walls(walls, axis, side, place), box);
-        }
-    }
-  }
-
-  /// Whether a tall wall runs along this end nearby.
-  bool along_wall(const std::vector<WallLine>& walls, int axis, double place, const Eigen::AlignedBox2d& box) const {
-    constexpr double parallel = 0.95, near = 0.6, enough = 0.3;  // cosine; metres; of the end's length
-    Eigen::Vector2d middle = box.center();
-    middle[axis] = place;
-    return std::any_of(walls.begin(), walls.end(), [&](const WallLine& wall) {
-      return std::abs(wall.line.normal[axis]) > parallel && std::abs(wall.line.side(middle)) < near &&
-             wall.end - wall.begin > enough * box.sizes()[1 - axis] && is_tall(wall);
-    });
-  }
-
-  /// The end at `place`, or that of a wall that runs a little further.
-  double end_of_walls(const std::vector<WallLine>& walls, int axis, double side, double place) const {
-    constexpr double across = 0.3, further = 0.5;  // cosine; metres
-    double result = place;
-    for (const WallLine& wall : walls) {
-      if (std::abs(wall.line.normal[axis]) > across || !is_tall(wall)) continue;
-      const Eigen::Vector2d foot = -wall.line.offset * wall.line.normal;
-      for (const double t : {wall.begin, wall.end}) {
-        const double end = (foot + t * wall.line.along())[axis];
-        if (side * (end - place) < further && side * (end - result) > 0) result = end;
-      }
-    }
-    return result;
-  }
-
-  /// Whether it is taller than furniture.
-  bool is_tall(const WallLine& wall) const {
-    constexpr double tall = 0.6;  // of the storey's height
-    const double least_top = planes_.floor_height + tall * (planes_.ceiling_height - planes_.floor_height);
-    return std::any_of(wall.primitives.begin(), wall.primitives.end(),
-                       [&](std::int32_t i) { return raster(i).high().y() >= least_top; });
-  }
-
-  void add_end_line(int axis, double side, double place, const Eigen::AlignedBox2d& box) {
-    WallLine end;
-    end.line.normal = -side * Eigen::Vector2d::Unit(axis);
-    // With floor and ceiling both ending there, that is the end; one alone mostly ends before the wall.
-    end.line.offset = side * place + (is_seen(planes_.floors) && is_seen(planes_.ceilings) ? 0 : unseen_strip);
-    const Eigen::Vector2d along = end.line.along();
-    end.begin = std::min(along.dot(box.min()), along.dot(box.max()));
-    end.end = std::max(along.dot(box.min()), along.dot(box.max()));
-    planes_.lines.push_back(std::move(end));
-  }
-
-  static bool is_seen(const std::vector<CellSurface>& surfaces) {
-    return std::any_of(surfaces.begin(), surfaces.end(), [](const CellSurface& s) { return s.primitive >= 0; });
-  }
-
-  /// Calls square(centre) for each square with points of the surfaces.
-  template <class Square>
-  void each_square(const std::vector<CellSurface>& surfaces, Square square) const {
-    for (const auto& s : surfaces) {
-      std::vector<std::int32_t> primitives = s.joined;
-      if (s.primitive >= 0) primitives.push_back(s.primitive);
-      for (const auto primitive : primitives) {
-        const Raster& r = raster(primitive);
-        for (int y = 0; y < r.height; ++y)
-          for (int x = 0; x < r.width; ++x)
-            if (r.at(x, y)) square(r.centre(x, y));
-      }
-    }
-  }
-
-  /// Whether a tall wall stands near p.
-  bool at_wall(const std::vector<WallLine>& walls, const Eigen::Vector2d& p) const {
-    constexpr double near = 0.4;  // metres
-    return std::any_of(walls.begin(), walls.end(), [&](const WallLine& wall) {
-      if (std::abs(wall.line.side(p)) > near) return false;
-      const double place = wall.line.along().dot(p);
-      if (place < wall.begin - near || place > wall.end + near) return false;
-      return is_tall(wall);
-    });
   }
 
   void settle_heights() {
