@@ -3,11 +3,33 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
+#include <utility>
 
 namespace atrium::layout {
+namespace {
+
+constexpr std::uint32_t no_vertex = 0xffffffffU;
+
+/// A vertex of rings and its neighbours in them.
+struct Corner {
+  std::uint32_t a = no_vertex, b = no_vertex;
+  bool kept = false;  ///< rings differ in its neighbours
+  double off = 0;     ///< how far what was dropped beside it stands off the edges that are left
+};
+
+/// How far `here` stands off the way from `before` to `next`; infinite if it is not between them.
+double off_chord(const Eigen::Vector3d& before, const Eigen::Vector3d& here, const Eigen::Vector3d& next) {
+  const Eigen::Vector3d chord = (next - before).normalized();
+  const Eigen::Vector3d off = here - before;
+  if (off.dot(chord) <= 0 || (next - here).dot(chord) <= 0) return std::numeric_limits<double>::infinity();
+  return (off - chord * off.dot(chord)).norm();
+}
+
+}  // namespace
 namespace {
 
 /// The angle by which one turns to the left at b on the way from a to c, −π … π.
@@ -82,6 +104,37 @@ bool ring_contains(const Ring& ring, const std::vector<Eigen::Vector3d>& vertice
     if (x < u.dot(p) + (u.dot(q) - u.dot(p)) * (y - py) / (qy - py)) inside = !inside;
   }
   return inside;
+}
+
+std::vector<bool> straight_corners(const std::vector<const Ring*>& rings, const std::vector<Eigen::Vector3d>& vertices,
+                                   double tolerance) {
+  std::vector<Corner> corners(vertices.size());
+  for (const Ring* ring : rings) {
+    for (std::size_t i = 0; i < ring->size(); ++i) {
+      const std::uint32_t before = (*ring)[(i + ring->size() - 1) % ring->size()];
+      const std::uint32_t next = (*ring)[(i + 1) % ring->size()];
+      Corner& here = corners[(*ring)[i]];
+      if (here.a == no_vertex) {
+        here.a = before, here.b = next;
+      } else if (std::minmax(here.a, here.b) != std::minmax(before, next)) {
+        here.kept = true;
+      }
+    }
+  }
+  std::vector<bool> straight(vertices.size(), false);
+  for (std::uint32_t v = 0; v < corners.size(); ++v) {
+    const Corner& here = corners[v];
+    if (here.kept || here.a == no_vertex || here.a == here.b) continue;
+    const double off = here.off + off_chord(vertices[here.a], vertices[v], vertices[here.b]);
+    if (!(off <= tolerance)) continue;
+    straight[v] = true;
+    for (const auto& [end, other] : {std::pair{here.a, here.b}, std::pair{here.b, here.a}}) {
+      Corner& beside = corners[end];
+      (beside.a == v ? beside.a : beside.b) = other;
+      beside.off = std::max(beside.off, off);
+    }
+  }
+  return straight;
 }
 
 }  // namespace atrium::layout

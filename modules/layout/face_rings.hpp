@@ -19,4 +19,10 @@ double signed_area(const Ring& ring, const std::vector<Eigen::Vector3d>& vertice
 bool ring_contains(const Ring& ring, const std::vector<Eigen::Vector3d>& vertices, const Eigen::Vector3d& normal,
                    const Eigen::Vector3d& place);
 
+/// Which vertices are no corners of these rings: each has the same two neighbours in all of them and lies within
+/// `tolerance` of the straight edge that is left where it and others before it are dropped. Two corners of a millimetre
+/// apart are one: one of them stays. Cost: linear.
+std::vector<bool> straight_corners(const std::vector<const Ring*>& rings, const std::vector<Eigen::Vector3d>& vertices,
+                                   double tolerance);
+
 }  // namespace atrium::layout

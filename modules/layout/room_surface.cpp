@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "modules/layout/face_rings.hpp"
 #include "modules/layout/room_cells.hpp"
@@ -12,15 +11,6 @@ namespace atrium::layout {
 namespace {
 
 constexpr double straight = 1.5e-3;  // corners nearer to the line of their neighbours are none
-
-/// How far `here` stands off the way from `before` to `next`; infinite if it is not between them.
-template <class V>
-double off_chord(const V& before, const V& here, const V& next) {
-  const V chord = (next - before).normalized();
-  const V off = here - before;
-  if (off.dot(chord) <= 0 || (next - here).dot(chord) <= 0) return std::numeric_limits<double>::infinity();
-  return (off - chord * off.dot(chord)).norm();
-}
 
 class Builder {
  public:
@@ -175,13 +165,10 @@ class Builder {
     for (const auto& v : storey_.vertices) places.emplace_back(v.x(), v.y(), 0);
     double most = 0;
     for (const auto& ring : joined_rings(cells, places, Eigen::Vector3d::UnitZ())) {
+      const std::vector<bool> dropped = straight_corners({&ring}, places, straight);
       std::vector<Eigen::Vector2d> outline;
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const Eigen::Vector2d& before = storey_.vertices[ring[(i + ring.size() - 1) % ring.size()]];
-        const Eigen::Vector2d& here = storey_.vertices[ring[i]];
-        const Eigen::Vector2d& next = storey_.vertices[ring[(i + 1) % ring.size()]];
-        if (off_chord(before, here, next) > straight) outline.push_back(here);
-      }
+      for (const auto v : ring)
+        if (!dropped[v]) outline.push_back(storey_.vertices[v]);
       const double area = signed_area(ring, places, Eigen::Vector3d::UnitZ());
       if (area < 0) {
         surface_.holes.push_back(std::move(outline));
@@ -200,28 +187,11 @@ class Builder {
     }
   }
 
-  /// A corner on a straight edge is none: it has the same two neighbours in all faces around it, and the way does not
-  /// turn there. Where more edges meet it stays, whatever their angles.
   void drop_straight_corners() {
-    constexpr std::uint32_t unknown = 0xffffffffU;
-    struct Neighbours {
-      std::uint32_t a = unknown, b = unknown;
-      bool kept = false;
-    };
-    std::vector<Neighbours> corners(surface_.vertices.size());
-    each_ring([&](const Ring& ring) {
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const std::uint32_t before = ring[(i + ring.size() - 1) % ring.size()], next = ring[(i + 1) % ring.size()];
-        Neighbours& here = corners[ring[i]];
-        if (here.a == unknown) {
-          here = {before, next,
-                  off_chord(surface_.vertices[before], surface_.vertices[ring[i]], surface_.vertices[next]) > straight};
-        } else if (std::minmax(here.a, here.b) != std::minmax(before, next)) {
-          here.kept = true;
-        }
-      }
-    });
-    each_ring([&](Ring& ring) { std::erase_if(ring, [&](std::uint32_t v) { return !corners[v].kept; }); });
+    std::vector<const Ring*> rings;
+    each_ring([&](const Ring& ring) { rings.push_back(&ring); });
+    const std::vector<bool> dropped = straight_corners(rings, surface_.vertices, straight);
+    each_ring([&](Ring& ring) { std::erase_if(ring, [&](std::uint32_t v) { return dropped[v]; }); });
     const auto gone = [](const Ring& ring) { return ring.size() < 3; };
     for (auto& face : surface_.faces) std::erase_if(face.holes, gone);
     std::erase_if(surface_.faces, [&](const RoomFace& face) { return gone(face.outline); });

@@ -177,13 +177,6 @@ SeenSides turn_to_seen_sides(PlanePrimitives& planes, const Context& context) {
     if (!planes.primitives[i].inliers.empty()) sides[i] = side_of(planes.primitives[i], seen);
   });
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    if (getenv("DBG") && planes.primitives[i].inliers.size() * 60 > planes.cloud->size()) {
-      auto c = planes.cloud->points[planes.primitives[i].inliers[planes.primitives[i].inliers.size() / 2]];
-      Eigen::Vector3d n = planes.primitives[i].plane.normal;
-      fprintf(stderr, "PL %zu n=%.2f %.2f %.2f pts=%zu rms=%.3f at %.2f %.2f %.2f bal=%.2f by=%d sign=%.0f\n", i, n.x(),
-              n.y(), n.z(), planes.primitives[i].inliers.size(), planes.primitives[i].residual, c.x(), c.y(), c.z(),
-              seen.by_free_space(planes.primitives[i]), (int)sides[i].by, sides[i].sign);
-    }
     Plane& plane = planes.primitives[i].plane;
     if (sides[i].sign < 0) plane = {-plane.normal, -plane.offset};
     result.by_positions += sides[i].by == Evidence::positions ? 1 : 0;

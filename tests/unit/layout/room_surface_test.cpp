@@ -83,6 +83,14 @@ Made made(StoreyCells storey, std::int32_t room = 0) {
   RoomSurface surface = room_surface(storey, room);
   return {std::move(storey), std::move(surface)};
 }
+double plan_area(const RoomSurface& surface) {
+  double twice = 0;
+  for (std::size_t i = 0; i < surface.outline.size(); ++i) {
+    const Vector2d &p = surface.outline[i], &q = surface.outline[(i + 1) % surface.outline.size()];
+    twice += p.x() * q.y() - p.y() * q.x();
+  }
+  return twice / 2;
+}
 std::size_t count(const RoomSurface& surface, SurfaceClass c) {
   return static_cast<std::size_t>(
       std::count_if(surface.faces.begin(), surface.faces.end(), [&](const auto& f) { return f.key.surface == c; }));
@@ -97,6 +105,18 @@ TEST(RoomSurface, ABox) {
   EXPECT_NEAR(volume_of(surface), 5, 1e-9);
   EXPECT_EQ(surface.outline.size(), 4U);
   EXPECT_TRUE(surface.holes.empty());
+}
+
+// Each of the two corners is off the other's chord by 1.45 mm.
+TEST(RoomSurface, OfTwoCornersAMillimetreApartOneStays) {
+  StoreyCells storey = cells_of({0, 0}, {4, 3}, {{Vector2d(1, 1).normalized(), -(7 - 0.00145) / std::sqrt(2.0)}});
+  ASSERT_EQ(storey.cells.size(), 2U);
+  for (auto& cell : storey.cells) cell.room = cell.area > 1 ? 0 : -1;
+  const auto [cells, surface] = made(storey);
+  EXPECT_EQ(flaw(cells, surface), "");
+  EXPECT_NEAR(plan_area(surface), 12, 0.01);
+  EXPECT_EQ(surface.outline.size(), 4U);
+  EXPECT_NEAR(volume_of(surface), 30, 0.03);
 }
 
 TEST(RoomSurface, AnL) {
