@@ -30,7 +30,7 @@ RegionPatches::Support RegionPatches::support(const Region& region) const {
 std::vector<Patch> RegionPatches::patches(const Region& region, const Context& context) const {
   const auto [places, share] = support(region);
   // Spread evenly through space, a third would lie in the slab, at an RMS distance of 0.58 of its half width.
-  const bool diffuse = share < 0.5;
+  const bool diffuse = share < 0.6;
   const double reach = cluster_distance > 0 ? cluster_distance : spacing.reach(places);
   PlaneCells cells(region.plane.normal, reach);
   std::vector<std::uint32_t> cell_of;
