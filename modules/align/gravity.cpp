@@ -75,9 +75,12 @@ std::vector<FacedArea> faces_of(const PlanePrimitives& planes, const Context& co
           std::vector<SurfacePiece> points;
           Moments moments;
           const Eigen::Vector3d reference = planes.cloud->points[primitive.inliers.front()].cast<double>();
-          for (const auto i : primitive.inliers) {
-            points.push_back({planes.cloud->points[i], Eigen::Vector3f::Zero()});
-            moments.add(planes.cloud->points[i].cast<double>() - reference);
+          constexpr std::size_t most = 50000;
+          const std::size_t step = std::max<std::size_t>(1, primitive.inliers.size() / most);
+          for (std::size_t i = 0; i < primitive.inliers.size(); i += step) {
+            const Eigen::Vector3f& point = planes.cloud->points[primitive.inliers[i]];
+            points.push_back({point, Eigen::Vector3f::Zero()});
+            moments.add(point.cast<double>() - reference);
           }
           constexpr double wide = 0.6;  // metres
           const double width = std::sqrt(std::max(0.0, 12 * fit_plane(moments).variances[1]));
@@ -97,14 +100,13 @@ std::vector<SurfacePiece> points_of(const PlanePrimitives& planes) {
   const Cloud& cloud = *planes.cloud;
   constexpr std::size_t most = 400000;
   const std::size_t step = std::max<std::size_t>(1, cloud.size() / most);
-  std::vector<SurfacePiece> all(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) all[i] = {cloud.points[i], Eigen::Vector3f::Zero()};
+  std::vector<SurfacePiece> pieces;
+  pieces.reserve(cloud.size() / step + 1);
+  for (std::size_t i = 0; i < cloud.size(); i += step) pieces.push_back({cloud.points[i], Eigen::Vector3f::Zero()});
   for (const auto& primitive : planes.primitives)
-    for (const auto i : primitive.inliers) all[i].normal = primitive.plane.normal.cast<float>();
-  if (step == 1) return all;
-  std::vector<SurfacePiece> some;
-  for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
-  return some;
+    for (const auto i : primitive.inliers)
+      if (i % step == 0) pieces[i / step].normal = primitive.plane.normal.cast<float>();
+  return pieces;
 }
 
 std::vector<Choice> choices_of(const PlanePrimitives& planes, const std::vector<FacedArea>& faces, bool y_up,

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <vector>
 
 #include "modules/geometry/grid_walk.hpp"
@@ -16,17 +15,6 @@ namespace {
 constexpr double least_cell = 0.05;    // metres
 constexpr double straight_part = 0.8;  // of a way: the rest may graze the surface it ends on
 constexpr std::size_t most_ways = 20000;
-
-/// Voxels so wide that two occupied ones hold three points on average.
-std::unique_ptr<PointGrid> occupancy(const Cloud& cloud, const Context& context) {
-  double edge = least_cell;
-  auto grid = std::make_unique<PointGrid>(cloud.points, edge, context);
-  for (int doubled = 0; doubled < 3 && 2 * grid->inside() < 3 * grid->cells().size(); ++doubled) {
-    edge *= 2;
-    grid = std::make_unique<PointGrid>(cloud.points, edge, context);
-  }
-  return grid;
-}
 
 bool is_free(const PointGrid& grid, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const double length = (to - from).norm();
@@ -101,48 +89,57 @@ bool stands_clear(const Cloud& cloud, const Eigen::Vector3d& place) {
   return box.contains(place) && static_cast<double>(around) <= few_share * static_cast<double>(cloud.size());
 }
 
-}  // namespace
+SharedOutput<Cloud> with_positions(const Input<Cloud>& cloud, std::vector<Eigen::Vector3f> sensors) {
+  if (cloud->sensors == sensors && cloud->source.empty()) return cloud;
+  auto result = std::make_shared<Cloud>(*cloud);
+  result->sensors = std::move(sensors);
+  result->source.clear();
+  return result;
+}
 
-Positions::Out Positions::run(const In& in, const Params& params, Context& context) {
-  Out out{*in.cloud};
-  Cloud& cloud = out.cloud;
-  if (cloud.size() == 0) return out;
-  const auto grid = occupancy(cloud, context);
-  if (!cloud.sensors.empty() && !cloud.source.empty()) {
-    const double share = free_share(cloud, *grid, context);
-    if (share >= params.min_free) {
-      context.info(fmt::format("{} positions, {:.0f} % of the ways to their points are free", cloud.sensors.size(),
-                               100 * share));
-      return out;
-    }
-    context.warn(
-        fmt::format("the scanner's positions are left out: only {:.0f} % of the ways from them to their points "
-                    "are free of other points",
-                    100 * share));
-    cloud.sensors.clear();
-    cloud.source.clear();
-    return out;
+SharedOutput<Cloud> checked_positions(const Input<Cloud>& cloud, double min_free, const Context& context) {
+  const double share = free_share(*cloud, *grid_for_rays(cloud->points, least_cell, context), context);
+  if (share >= min_free) {
+    context.info(
+        fmt::format("{} positions, {:.0f} % of the ways to their points are free", cloud->sensors.size(), 100 * share));
+    return cloud;
   }
-  const bool named = cloud.sensors.size() == 1;
-  const Eigen::Vector3d place = named ? cloud.sensors.front().cast<double>() : Eigen::Vector3d(-cloud.origin);
-  cloud.sensors.clear();
-  cloud.source.clear();
-  if (!named && !stands_clear(cloud, place)) return out;
-  const double share = visible_share(cloud, *grid, place, context);
-  if (share >= params.min_visible) {
+  context.warn(
+      fmt::format("the scanner's positions are left out: only {:.0f} % of the ways from them to their points are free "
+                  "of other points",
+                  100 * share));
+  return with_positions(cloud, {});
+}
+
+/// One position for all points: the file's own, or its origin.
+SharedOutput<Cloud> checked_position(const Input<Cloud>& cloud, double min_visible, const Context& context) {
+  const bool named = cloud->sensors.size() == 1;
+  const Eigen::Vector3d place = named ? cloud->sensors.front().cast<double>() : Eigen::Vector3d(-cloud->origin);
+  if (!named && !stands_clear(*cloud, place)) return with_positions(cloud, {});
+  const double share = visible_share(*cloud, *grid_for_rays(cloud->points, least_cell, context), place, context);
+  if (share >= min_visible) {
     context.info(fmt::format("one position, {}: {:.0f} % of the directions around it show one depth",
                              named ? "the file's" : "the file's origin", 100 * share));
-    cloud.sensors = {place.cast<float>()};
-  } else if (named) {
+    return with_positions(cloud, {place.cast<float>()});
+  }
+  if (named)
     context.warn(
         fmt::format("the scanner's position is left out: only {:.0f} % of the directions around it show one "
                     "depth, so the points were taken from several places",
                     100 * share));
-  } else {
+  else
     context.info(fmt::format("no position is known; {:.0f} % of the directions around the file's origin show one depth",
                              100 * share));
-  }
-  return out;
+  return with_positions(cloud, {});
+}
+
+}  // namespace
+
+Positions::Out Positions::run(const In& in, const Params& params, Context& context) {
+  const Cloud& cloud = *in.cloud;
+  if (cloud.size() == 0) return {in.cloud};
+  if (!cloud.sensors.empty() && !cloud.source.empty()) return {checked_positions(in.cloud, params.min_free, context)};
+  return {checked_position(in.cloud, params.min_visible, context)};
 }
 
 }  // namespace atrium::filter

@@ -24,7 +24,7 @@ struct Positions {
     Input<Cloud> cloud;
   };
   struct Out {
-    Cloud cloud;
+    SharedOutput<Cloud> cloud;
   };
   struct Params {
     double min_free = 0.5;

@@ -185,13 +185,6 @@ std::vector<std::uint64_t> PointGrid::make_cells(const std::vector<std::uint64_t
   return cell_keys;
 }
 
-std::size_t PointGrid::slot(std::uint64_t block_key) const {
-  const std::size_t mask = blocks_.size() - 1;
-  std::size_t at = static_cast<std::size_t>((block_key * 0x9e3779b97f4a7c15ULL) >> 32U) & mask;
-  while (blocks_[at].first != none && blocks_[at].key != block_key) at = (at + 1) & mask;
-  return at;
-}
-
 void PointGrid::make_blocks(const std::vector<std::uint64_t>& cell_keys) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < cell_keys.size(); ++i)
@@ -203,16 +196,27 @@ void PointGrid::make_blocks(const std::vector<std::uint64_t>& cell_keys) {
       block.occupied |= std::uint64_t{1} << (cell_keys[i] & 63U);
     blocks_[slot(block.key)] = block;
   }
+  make_map();
+}
+
+void PointGrid::make_map() {
+  constexpr double most_bits = 1 << 22;
+  map_shift_ = 2;
+  const auto cubes = [&](std::size_t axis) { return (static_cast<std::size_t>(extent_[axis] - 1) >> map_shift_) + 1; };
+  while (static_cast<double>(cubes(0)) * static_cast<double>(cubes(1)) * static_cast<double>(cubes(2)) > most_bits)
+    ++map_shift_;
+  map_width_ = cubes(0);
+  map_height_ = cubes(1);
+  map_.assign(map_width_ * map_height_ * cubes(2) / 64 + 1, 0);
+  for (const Cell& cell : cells_) {
+    const std::size_t bit = map_bit(cell.x, cell.y, cell.z);
+    map_[bit >> 6U] |= std::uint64_t{1} << (bit & 63U);
+  }
 }
 
 std::uint32_t PointGrid::find(std::int32_t x, std::int32_t y, std::int32_t z) const {
   if (x < 0 || y < 0 || z < 0 || x >= extent_[0] || y >= extent_[1] || z >= extent_[2]) return none;
-  const std::uint64_t key = spread_[0][static_cast<std::size_t>(x)] | spread_[1][static_cast<std::size_t>(y)] |
-                            spread_[2][static_cast<std::size_t>(z)];
-  const Block& block = blocks_[slot(key >> 6U)];
-  const std::uint64_t bit = std::uint64_t{1} << (key & 63U);
-  if (block.first == none || (block.occupied & bit) == 0) return none;
-  return block.first + static_cast<std::uint32_t>(std::popcount(block.occupied & (bit - 1)));
+  return block(x, y, z).cell(x, y, z);
 }
 
 std::array<std::uint32_t, 27> PointGrid::neighbourhood(const Cell& cell) const {

@@ -2,11 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
 
+#include "modules/geometry/grid_walk.hpp"
 #include "modules/normal/surfels.hpp"
 
 namespace atrium::normal {
@@ -45,34 +45,19 @@ class FreeSpace {
   }
 
  private:
-  /// Length of a ray up to the first surface other than the surfel's own; 0 if there is none. Walks from voxel to voxel
-  /// (Amanatides & Woo, "A fast voxel traversal algorithm for ray tracing", 1987).
+  /// Length of a ray up to the first surface other than the surfel's own; 0 if there is none.
   double travel(const Surfel& surfel, const Eigen::Vector3f& direction) const {
-    const double size = grid_.cell_size();
-    const auto near = static_cast<float>(own_surface * size);
-    const PointGrid::Cell& start = grid_.cells()[surfel.cell];
-    std::array<std::int32_t, 3> at{start.x, start.y, start.z}, step{};
-    std::array<double, 3> next{}, width{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<Eigen::Index>(axis);
-      const double d = static_cast<double>(direction[i]);
-      const double to_middle = grid_.centre(start)[i] - static_cast<double>(surfel.centre[i]);
-      step[axis] = d < 0 ? -1 : 1;
-      width[axis] = d == 0 ? std::numeric_limits<double>::infinity() : size / std::abs(d);
-      next[axis] = d == 0 ? width[axis] : std::max(0.0, (to_middle + step[axis] * size / 2) / d);
-    }
-    for (;;) {
-      const std::size_t axis = next[0] <= next[1] && next[0] <= next[2] ? 0 : next[1] <= next[2] ? 1 : 2;
-      const double t = next[axis];
-      at[axis] += step[axis];
-      next[axis] += width[axis];
-      if (t > range_ || at[axis] < 0 || at[axis] >= grid_.extent()[axis]) return 0;
-      const std::uint32_t cell = grid_.find(at[0], at[1], at[2]);
-      if (cell == PointGrid::none) continue;
-      for (std::uint32_t s = surfels_.first[cell]; s < surfels_.first[cell + 1]; ++s)
-        if (std::abs(surfel.axis.dot(surfels_.surfels[s].centre - surfel.centre)) > near)
-          return std::min(t, saturation);
-    }
+    const auto near = static_cast<float>(own_surface * grid_.cell_size());
+    double way = 0;
+    const bool met = walk(grid_, surfel.centre.cast<double>(), direction.cast<double>(), range_,
+                          [&](std::uint32_t cell, double length) {
+                            way = length;
+                            for (std::uint32_t s = surfels_.first[cell]; s < surfels_.first[cell + 1]; ++s)
+                              if (std::abs(surfel.axis.dot(surfels_.surfels[s].centre - surfel.centre)) > near)
+                                return true;
+                            return false;
+                          });
+    return met ? std::min(way, saturation) : 0;
   }
 
   const PointGrid& grid_;
@@ -107,11 +92,7 @@ void turn_regions(Surfels& surfels, const FreeSpace& space, const Context& conte
 }  // namespace
 
 void turn_to_free_space(Cloud& cloud, double voxel, double range, const Context& context) {
-  auto grid = std::make_unique<PointGrid>(cloud.points, voxel, context);
-  for (int doubled = 0; doubled < 3 && 2 * grid->inside() < 3 * grid->cells().size(); ++doubled) {
-    voxel *= 2;
-    grid = std::make_unique<PointGrid>(cloud.points, voxel, context);
-  }
+  const auto grid = grid_for_rays(cloud.points, voxel, context);
   Surfels surfels(cloud, *grid, context);
   turn_regions(surfels, FreeSpace(*grid, surfels, range), context);
   context.parallel_for(grid->inside(), [&](std::size_t begin, std::size_t end) {

@@ -129,18 +129,24 @@ class Shifted {
   std::vector<std::uint32_t> place_;  ///< in the unshifted order, of each point of the cloud
 };
 
-/// The distance of points from their planes, and voxels wide enough to show which way a plane lies.
-void derive_from_noise(const MortonOrder& order, const std::vector<std::int32_t>& owner,
-                       const RegionGrowing::Params& params, Settings& settings, const Context& context) {
+/// The distance of points from their planes, and voxels wide enough to show which way a plane lies. Returns the voxels
+/// that were measured for it, if they are.
+std::optional<VoxelGrid> derive_from_noise(const MortonOrder& order, const std::vector<std::int32_t>& owner,
+                                           const RegionGrowing::Params& params, Settings& settings,
+                                           const Context& context) {
+  const std::uint32_t level = settings.level;
   settings.planarity.max_residual = settings.cell * (1U << least_level);
-  const double noise = noise_of(VoxelGrid(order, settings.cell, settings.level, owner, settings.planarity, context),
-                                settings.level == least_level);
+  std::optional<VoxelGrid> grid(std::in_place, order, settings.cell, level, owner, settings.planarity, context);
+  const double noise = noise_of(*grid, level == least_level);
   context.info(
       fmt::format("noise {:.1f} mm, voxels of {:.0f} mm", 1000 * noise, 1000 * settings.cell * (1U << settings.level)));
   settings.limits.distance = std::max({distance_per_residual * noise, params.min_distance, 1e-6});
-  if (params.voxel_size > 0) return;
-  while (settings.level < coarsest_level && settings.cell * (1U << settings.level) < voxel_per_noise * noise)
+  while (params.voxel_size == 0 && settings.level < coarsest_level &&
+         settings.cell * (1U << settings.level) < voxel_per_noise * noise)
     ++settings.level;
+  if (settings.level != level || settings.limits.distance > settings.planarity.max_residual) return {};
+  grid->limit_residual(settings.limits.distance);
+  return grid;
 }
 
 void report(const SeenSides& sides, std::size_t planes, const Context& context) {
@@ -152,13 +158,8 @@ void report(const SeenSides& sides, std::size_t planes, const Context& context) 
         sides.turned_against_normals, planes));
 }
 
-}  // namespace
-
-RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Context& context) {
-  const Cloud& cloud = *in.cloud;
-  if (cloud.size() < 3)
-    throw Error("a plane needs at least 3 points, the cloud has " + std::to_string(cloud.size()),
-                "look at what the nodes before this one have filtered away");
+PlanePrimitives grown(const Input<Cloud>& input, const RegionGrowing::Params& params, const Context& context) {
+  const Cloud& cloud = *input;
   Settings settings;
   settings.cell = (params.voxel_size > 0 ? params.voxel_size : params.min_voxel_size) / (1U << least_level);
   const MortonOrder order(cloud, settings.cell, context);
@@ -168,7 +169,8 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
   const std::vector<std::int32_t>& owner = assignment.owner;
   GrowthLimits& limits = settings.limits;
   limits.distance = params.distance;
-  if (params.distance == 0) derive_from_noise(order, owner, params, settings, context);
+  KnownVoxels known_voxels;
+  if (params.distance == 0) known_voxels.grid = derive_from_noise(order, owner, params, settings, context);
   settings.planarity.max_residual = limits.distance;
   limits.min_cosine = std::cos(params.angle * std::numbers::pi / 180);
   limits.min_area = params.min_area;
@@ -178,7 +180,6 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
   const PointOctree octree(order.columns, order.codes, octree_leaf_size, context);
   constexpr float any_normal = -2;
   const Tolerance tolerance{static_cast<float>(limits.distance), any_normal};
-  KnownVoxels known_voxels;
   std::vector<Patch> patches;
   const bool alternate = settings.level > least_level;  // finer voxels are thinner than walls
   // By half an edge first, then by quarters: the faces of a wall as thin as that stand in different voxels once.
@@ -198,7 +199,16 @@ RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Contex
     std::move(found.begin(), found.end(), std::back_inserter(patches));
     assignment.add(order, octree, patches, known, tolerance, context);
   }
-  PlanePrimitives planes = fit_primitives(in.cloud, order, owner, patches, limits.min_points, context);
+  return fit_primitives(input, order, owner, patches, limits.min_points, context);
+}
+
+}  // namespace
+
+RegionGrowing::Out RegionGrowing::run(const In& in, const Params& params, Context& context) {
+  if (in.cloud->size() < 3)
+    throw Error("a plane needs at least 3 points, the cloud has " + std::to_string(in.cloud->size()),
+                "look at what the nodes before this one have filtered away");
+  PlanePrimitives planes = grown(in.cloud, params, context);
   if (params.max_planes > 0 && planes.primitives.size() > static_cast<std::size_t>(params.max_planes))
     planes.primitives.resize(static_cast<std::size_t>(params.max_planes));
   report(turn_to_seen_sides(planes, context), planes.primitives.size(), context);

@@ -39,6 +39,11 @@ class VoxelGrid {
   void update(const MortonOrder& order, const std::vector<std::int32_t>& owner, const Planarity& planarity,
               const Context& context);
 
+  /// Planar from now on are only those that are at most this far from their plane (RMS, metres).
+  void limit_residual(double max_residual) {
+    for (Voxel& voxel : voxels_) voxel.planar = voxel.planar && voxel.residual <= max_residual;
+  }
+
   const std::vector<Voxel>& voxels() const { return voxels_; }
   double edge() const { return edge_; }
   /// The voxel's number, or none.

@@ -33,7 +33,7 @@ Cloud one_room(const Eigen::Vector3d& moved) {
 
 TEST(Positions, FindsTheOneThatTheFilesOriginIs) {
   Warnings warnings;
-  const Cloud found = Positions::run({input(one_room({-2, -2, -1.2}))}, {}, warnings.context()).cloud;
+  const Cloud found = *Positions::run({input(one_room({-2, -2, -1.2}))}, {}, warnings.context()).cloud;
   ASSERT_EQ(found.sensors.size(), 1U);
   EXPECT_TRUE(found.sensors[0].isZero(1e-6F));
   EXPECT_TRUE(found.source.empty());
@@ -43,9 +43,9 @@ TEST(Positions, FindsTheOneThatTheFilesOriginIs) {
 TEST(Positions, FindsNoneInAMapOrOnASurface) {
   Warnings warnings;
   // From the far end of the first room the second one fills most of the directions.
-  EXPECT_TRUE(Positions::run({input(two_rooms({-4.6, -2, -1.2}))}, {}, warnings.context()).cloud.sensors.empty());
-  EXPECT_TRUE(Positions::run({input(one_room({-2, -2, 0}))}, {}, warnings.context()).cloud.sensors.empty());
-  EXPECT_TRUE(Positions::run({input(one_room({20, 0, 0}))}, {}, warnings.context()).cloud.sensors.empty());
+  EXPECT_TRUE(Positions::run({input(two_rooms({-4.6, -2, -1.2}))}, {}, warnings.context()).cloud->sensors.empty());
+  EXPECT_TRUE(Positions::run({input(one_room({-2, -2, 0}))}, {}, warnings.context()).cloud->sensors.empty());
+  EXPECT_TRUE(Positions::run({input(one_room({20, 0, 0}))}, {}, warnings.context()).cloud->sensors.empty());
   EXPECT_TRUE(warnings.texts().empty());
 }
 
@@ -54,10 +54,10 @@ TEST(Positions, LeavesOutTheFilesWhereTheWaysAreNotFree) {
   cloud.sensors = {{2, 2, 1.2F}, {7, 2, 1.2F}};
   for (const auto& p : cloud.points) cloud.source.push_back(p.x() < 5.06F ? 0 : 1);
   Warnings warnings;
-  EXPECT_EQ(Positions::run({input(cloud)}, {}, warnings.context()).cloud.sensors.size(), 2U);
+  EXPECT_EQ(Positions::run({input(cloud)}, {}, warnings.context()).cloud->sensors.size(), 2U);
   EXPECT_TRUE(warnings.texts().empty());
   for (auto& s : cloud.source) s = static_cast<std::uint16_t>(1 - s);  // each saw the other's room, through the wall
-  const Cloud left = Positions::run({input(cloud)}, {}, warnings.context()).cloud;
+  const Cloud left = *Positions::run({input(cloud)}, {}, warnings.context()).cloud;
   EXPECT_TRUE(left.sensors.empty() && left.source.empty());
   ASSERT_EQ(warnings.texts().size(), 1U);
   EXPECT_NE(warnings.texts()[0].find("left out"), std::string::npos);
@@ -65,7 +65,7 @@ TEST(Positions, LeavesOutTheFilesWhereTheWaysAreNotFree) {
 
 TEST(Positions, AnEmptyCloudStaysEmpty) {
   Context context;
-  EXPECT_EQ(Positions::run({input(Cloud{})}, {}, context).cloud.size(), 0U);
+  EXPECT_EQ(Positions::run({input(Cloud{})}, {}, context).cloud->size(), 0U);
 }
 
 }  // namespace
