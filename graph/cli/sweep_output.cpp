@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/api/json_text.hpp"
+#include "graph/pipeline/find_pipeline.hpp"
 #include "graph/sweep/sheets.hpp"
 
 namespace atrium::cli {
@@ -22,9 +23,8 @@ void print(const std::vector<Diagnostic>& findings) {
 LoadedSweep load_sweep(const std::string& file, const std::vector<Override>& settings, Registry& registry) {
   LoadedSweep loaded;
   Findings findings;
-  std::error_code ignored;
-  const fs::path path = fs::absolute(file, ignored).lexically_normal();
-  loaded.sweep = read_sweep(path, file, findings);
+  const GivenPipeline found = find_given_pipeline(file, findings);
+  if (findings.error_count() == 0) loaded.sweep = read_sweep(found.path, found.name, findings);
   if (findings.error_count() == 0) loaded.load = plan_sweep(*loaded.sweep, settings, registry);
   print(findings.warnings());
   print(findings.errors());

@@ -51,7 +51,7 @@ int submit(const SubmitArguments& options) {
   submit_options.dry = options.dry;
   submit_options.cache = cache.get();
   Submission submission;
-  submission.sweep = fs::absolute(options.file).lexically_normal();
+  submission.sweep = loaded.sweep->path;
   submission.settings = options.settings;
   submission.folder = fs::current_path();
   submission.build = registry.build();

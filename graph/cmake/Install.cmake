@@ -21,6 +21,9 @@ install(FILES ${PROJECT_BINARY_DIR}/atriumConfig.cmake ${PROJECT_BINARY_DIR}/atr
               ${PROJECT_SOURCE_DIR}/graph/cmake/AtriumPlugin.cmake ${PROJECT_SOURCE_DIR}/graph/cmake/plugin.cpp.in
         DESTINATION ${package_dir})
 
+# Pipelines are found by name beside the library: here as where it is installed.
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_DATADIR}/atrium)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/pipelines ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_DATADIR}/atrium/pipelines SYMBOLIC)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/pipelines DESTINATION ${CMAKE_INSTALL_DATADIR}/atrium)
 # Not the scripts that set up, build and try a checkout.
 foreach(folder colormaps doc schema)

@@ -4,6 +4,7 @@
 
 #include "graph/api/suggest.hpp"
 #include "graph/pipeline/expansion.hpp"
+#include "graph/pipeline/find_pipeline.hpp"
 
 namespace atrium {
 namespace {
@@ -131,11 +132,11 @@ void Expander::fill(Scope& scope) {
     if (expansion_.nodes.size() > most_nodes) return;
     if (scope.members.contains(node.id.text) || scope.dormant.contains(node.id.text)) continue;
     if (const ParsedOverride* swap = overrides_.take(scope.prefix + node.id.text, "pipeline"); swap != nullptr)
-      open_pipeline(scope, swapped(node, *swap), {swap->note});
+      open_pipeline(scope, swapped(node, *swap), swap);
     else if (node.pipeline.text.empty())
       add_node(scope, node);
     else
-      open_pipeline(scope, node, {});
+      open_pipeline(scope, node, nullptr);
   }
 }
 
@@ -251,12 +252,11 @@ const DocumentNode& Expander::swapped(const DocumentNode& node, const ParsedOver
   const auto& items = swap.setting.value.items;
   result.type = {};
   result.params.clear();
-  result.pipeline = {items.empty() ? "" : (swap.source->folder / items.front()).lexically_normal().string(),
-                     node.id.place};
+  result.pipeline = {items.empty() ? "" : items.front(), node.id.place};
   return result;
 }
 
-void Expander::open_pipeline(Scope& scope, const DocumentNode& node, const std::vector<std::string>& notes) {
+void Expander::open_pipeline(Scope& scope, const DocumentNode& node, const ParsedOverride* swap) {
   const std::string path = scope.prefix + node.id.text;
   Member member;
   for (const auto* set : overrides_.of(path)) {
@@ -265,7 +265,7 @@ void Expander::open_pipeline(Scope& scope, const DocumentNode& node, const std::
                     fmt::format("its nodes have: {}/NODE.type=TYPE", path), {set->note});
     overrides_.take(path, "type");
   }
-  if (const Document* document = document_of(scope, node, notes); document != nullptr) {
+  if (const Document* document = document_of(scope, node, swap); document != nullptr) {
     Scope& inner = expansion_.scopes.emplace_back();
     inner.document = document;
     inner.parent = &scope;
@@ -278,20 +278,28 @@ void Expander::open_pipeline(Scope& scope, const DocumentNode& node, const std::
 }
 
 /// The sub-pipeline's file, read once; null when it cannot be opened or would open itself.
-const Document* Expander::document_of(const Scope& scope, const DocumentNode& node,
-                                      const std::vector<std::string>& notes) {
-  const std::filesystem::path path = (scope.document->source.folder / node.pipeline.text).lexically_normal();
-  const std::string name = (std::filesystem::path(scope.document->source.name).parent_path() / node.pipeline.text)
-                               .lexically_normal()
-                               .string();
-  const auto [known, fresh] = identity_of_.try_emplace(path.string());
+const Document* Expander::document_of(const Scope& scope, const DocumentNode& node, const ParsedOverride* swap) {
+  const SourceFile& file = scope.document->source;
+  const std::string& text = node.pipeline.text;
+  const std::filesystem::path& folder = swap == nullptr ? file.folder : swap->source->folder;
+  auto [known, fresh] = opened_.try_emplace(folder.string() + '\n' + text);
   std::error_code missing;
-  if (fresh && std::filesystem::is_regular_file(path, missing))
-    known->second = std::filesystem::canonical(path, missing).string();
-  const std::string& identity = known->second;
+  if (fresh) {
+    auto& [path, is_installed, identity] = known->second;
+    const NamedPipeline found = find_pipeline(folder, text);
+    path = found.path;
+    is_installed = found.is_installed;
+    if (std::filesystem::is_regular_file(path, missing)) identity = std::filesystem::canonical(path, missing).string();
+  }
+  const auto& [path, is_installed, identity] = known->second;
+  const std::string name = swap == nullptr && !is_installed
+                               ? (std::filesystem::path(file.name).parent_path() / text).lexically_normal().string()
+                               : path.string();
   if (identity.empty()) {
+    const std::string help = help_for_missing_pipeline(folder, text, findings_);
     findings_.error(scope.at(node.pipeline.place), fmt::format("no such pipeline file: {}", name),
-                    notes.empty() ? "the path is relative to the file that it stands in" : "", notes);
+                    swap == nullptr ? help + "; a path is relative to the file that it stands in" : help,
+                    swap == nullptr ? std::vector<std::string>{} : std::vector{swap->note});
     return nullptr;
   }
   if (opens_itself(scope, node, identity, name)) return nullptr;

@@ -88,8 +88,9 @@ class Expander {
   void settle_variables(Scope& scope);
   void add_node(Scope& scope, const DocumentNode& node);
   const DocumentNode& swapped(const DocumentNode& node, const ParsedOverride& swap);
-  void open_pipeline(Scope& scope, const DocumentNode& node, const std::vector<std::string>& notes);
-  const Document* document_of(const Scope& scope, const DocumentNode& node, const std::vector<std::string>& notes);
+  /// `swap`: the setting that names the file; null: the node's own file does.
+  void open_pipeline(Scope& scope, const DocumentNode& node, const ParsedOverride* swap);
+  const Document* document_of(const Scope& scope, const DocumentNode& node, const ParsedOverride* swap);
   bool opens_itself(const Scope& scope, const DocumentNode& node, const std::string& identity, const std::string& name);
   void check_given_variables(const Scope& scope);
   void report_unknown_type(const Where& where, const std::string& type, std::vector<std::string> notes);
@@ -99,7 +100,12 @@ class Expander {
   Overrides& overrides_;
   Registry& registry_;
   Findings& findings_;
-  std::unordered_map<std::string, std::string> identity_of_;      ///< of a path as it is written: its canonical form
+  struct Opened {
+    std::filesystem::path path;
+    bool is_installed = false;
+    std::string identity;  ///< its canonical form; empty: there is none
+  };
+  std::unordered_map<std::string, Opened> opened_;                ///< by folder and the path as it is written
   std::unordered_map<std::string, const Document*> by_identity_;  ///< null: it could not be read
   std::vector<std::string> all_types_, modules_;
 };

@@ -5,6 +5,7 @@
 
 #include "graph/api/suggest.hpp"
 #include "graph/pipeline/expansion.hpp"
+#include "graph/pipeline/find_pipeline.hpp"
 #include "graph/pipeline/pipeline.hpp"
 
 namespace atrium {
@@ -107,16 +108,16 @@ LoadResult load_pipeline(const std::filesystem::path& file, const std::vector<Ov
   LoadResult result;
   Findings findings;
   Expansion expansion;
-  std::error_code ignored;
-  const std::filesystem::path path = std::filesystem::absolute(file, ignored).lexically_normal();
+  const GivenPipeline found = find_given_pipeline(file.string(), findings);
   ReadDocuments own;
   expansion.read = options.documents == nullptr ? &own : options.documents;
-  if (auto document = expansion.read->read(path, file.string(), 0, findings); document) {
+  auto document = findings.error_count() > 0 ? nullptr : expansion.read->read(found.path, found.name, 0, findings);
+  if (document) {
     const Document& root = *document;
     expansion.documents.push_back(std::move(document));
     Overrides overrides(given, root.source, findings);
     result.pipeline.summary = root.summary;
-    result.pipeline.file = path;
+    result.pipeline.file = found.path;
     read_seed(root, overrides, findings, result.pipeline);
     Expander(expansion, overrides, registry, findings).expand(root);
     settle_params(expansion, overrides, findings);

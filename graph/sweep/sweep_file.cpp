@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "graph/api/suggest.hpp"
+#include "graph/pipeline/find_pipeline.hpp"
 #include "graph/sweep/samples.hpp"
 
 namespace atrium {
@@ -133,12 +134,17 @@ class SweepReader {
     sweep_.base_place = entry->value.place;
     const std::string text = scalar(*entry);
     if (text.empty()) return;
-    sweep_.base = (sweep_.source.folder / text).lexically_normal();
-    sweep_.base_name = (std::filesystem::path(sweep_.source.name).parent_path() / text).lexically_normal().string();
+    const NamedPipeline found = find_pipeline(sweep_.source.folder, text);
+    sweep_.base = found.path;
+    sweep_.base_name =
+        found.is_installed
+            ? found.path.string()
+            : (std::filesystem::path(sweep_.source.name).parent_path() / text).lexically_normal().string();
     std::error_code missing;
     if (!std::filesystem::is_regular_file(sweep_.base, missing))
       error(sweep_.base_place, fmt::format("no such pipeline file: {}", sweep_.base_name),
-            "the path is relative to the file that it stands in");
+            help_for_missing_pipeline(sweep_.source.folder, text, findings_) +
+                "; a path is relative to the file that it stands in");
   }
 
   void named_choices(const YamlNode::Entry* section, std::string name, std::string_view first) {

@@ -1,7 +1,7 @@
 // Every file tests/bad/NAME.yaml has one kind of mistake, and NAME.expected holds what `atrium check` must say about
 // it. Comment lines that begin with "# -s " in the file are settings of the command line. ${DIR} in the expected text
-// stands for the folder tests/bad. ATRIUM_UPDATE_EXPECTED=1 writes the expected files anew: read them before you commit
-// them.
+// stands for the folder tests/bad, ${PIPELINES} for the installed pipelines. ATRIUM_UPDATE_EXPECTED=1 writes the expected
+// files anew: read them before you commit them.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "graph/pipeline/find_pipeline.hpp"
 #include "graph/pipeline/pipeline.hpp"
 #include "tests/graph/test_nodes.hpp"
 
@@ -32,9 +33,12 @@ std::vector<Override> settings(const std::string& text) {
   return result;
 }
 
-std::string without_folder(std::string text) {
-  for (std::size_t at = 0; (at = text.find(folder.string(), at)) != std::string::npos;)
-    text.replace(at, folder.string().size(), "${DIR}");
+std::string without_folders(std::string text) {
+  const auto replace = [&](const std::string& path, const char* name) {
+    for (std::size_t at = 0; (at = text.find(path, at)) != std::string::npos;) text.replace(at, path.size(), name);
+  };
+  replace(folder.string(), "${DIR}");
+  replace(installed_pipelines().string(), "${PIPELINES}");
   return text;
 }
 
@@ -49,7 +53,7 @@ std::string findings(const std::filesystem::path& file) {
   std::string text;
   for (const auto& diagnostic : result.warnings) text += to_string(diagnostic) + "\n";
   for (const auto& diagnostic : result.errors) text += to_string(diagnostic) + "\n";
-  return without_folder(text);
+  return without_folders(text);
 }
 
 std::vector<std::string> bad_files() {

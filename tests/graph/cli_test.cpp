@@ -113,7 +113,7 @@ TEST_F(CommandLine, WrongUseIsCodeTwo) {
 TEST_F(CommandLine, AFileThatIsNotThereIsCodeThree) {
   const Result result = run("check nowhere.yaml");
   EXPECT_EQ(result.code, 3);
-  EXPECT_EQ(result.err, "nowhere.yaml: error: cannot read the file: no such file\n");
+  EXPECT_EQ(result.err.find("nowhere.yaml: error: no such pipeline file\n  help: looked for "), 0U) << result.err;
 }
 
 TEST_F(CommandLine, APluginThatCannotBeUsedIsCodeFive) {
