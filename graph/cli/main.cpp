@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "graph/api/suggest.hpp"
+#include "graph/cli/command_table.hpp"
 #include "graph/cli/verbs.hpp"
 #include "graph/pipeline/registry.hpp"
 
@@ -27,7 +28,7 @@ int report_usage(const CLI::App& app, const CLI::ParseError& error, const std::v
     verb = verb->get_subcommands().front();
     name += " " + verb->get_name();
   }
-  const auto verbs = verb->get_subcommands([](const CLI::App*) { return true; });
+  const auto verbs = verb->get_subcommands([](const CLI::App* v) { return !v->get_group().empty(); });
   const auto word = std::find_if(words.begin(), words.end(), [](const auto& w) { return !w.starts_with("-"); });
   if (verb == &app && word != words.end()) {
     const auto names = atrium::words_of(verbs, [](const CLI::App* v) { return v->get_name(); });
@@ -62,6 +63,7 @@ int main(int argc, char** argv) {
   cli::add_schema(app, exit_code);
   cli::add_cache(app, exit_code);
   cli::add_why(app, exit_code);
+  cli::add_generate(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help
