@@ -9,17 +9,18 @@ install(TARGETS atrium_graph atrium_types atrium_geometry EXPORT atriumTargets
 install(TARGETS atrium RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 foreach(folder graph/api graph/pipeline graph/run modules/types modules/geometry)
   get_filename_component(parent ${folder} DIRECTORY)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${header_dir}/${parent} FILES_MATCHING PATTERN "*.hpp")
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${header_dir}/${parent} COMPONENT development
+          FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 
-install(EXPORT atriumTargets NAMESPACE atrium:: DESTINATION ${package_dir})
+install(EXPORT atriumTargets NAMESPACE atrium:: DESTINATION ${package_dir} COMPONENT development)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/atriumConfig.cmake.in ${PROJECT_BINARY_DIR}/atriumConfig.cmake
                               INSTALL_DESTINATION ${package_dir})
 # Plugins are checked by a stamp when they are loaded; the package promises no more than that.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/atriumConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/atriumConfig.cmake ${PROJECT_BINARY_DIR}/atriumConfigVersion.cmake
               ${PROJECT_SOURCE_DIR}/graph/cmake/AtriumPlugin.cmake ${PROJECT_SOURCE_DIR}/graph/cmake/plugin.cpp.in
-        DESTINATION ${package_dir})
+        DESTINATION ${package_dir} COMPONENT development)
 
 # Pipelines are found by name beside the library: here as where it is installed.
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_DATADIR}/atrium)
