@@ -75,7 +75,8 @@ void add_check(CLI::App& app, int& exit_code) {
   auto* verb =
       app.add_subcommand("check", "Checks a pipeline file: every mistake with its place, before anything runs.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("FILE", options->file, "the pipeline file, or a picture that a run has made (PNG)")
+  verb->add_option("FILE", options->file,
+                   "the pipeline file, the name of an installed one, or a picture that a run has made (PNG)")
       ->required()
       ->type_name("");
   add_settings(*verb, options->settings);

@@ -103,7 +103,8 @@ void add_graph(CLI::App& app, int& exit_code) {
   };
   auto* verb = app.add_subcommand("graph", "Draws a pipeline: DOT for Graphviz, or Mermaid for Markdown.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("FILE", options->file, "the pipeline file, or a picture that a run has made (PNG)")
+  verb->add_option("FILE", options->file,
+                   "the pipeline file, the name of an installed one, or a picture that a run has made (PNG)")
       ->required()
       ->type_name("");
   verb->add_option("--format", options->format, "dot or mermaid")

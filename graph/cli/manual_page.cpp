@@ -85,10 +85,10 @@ std::string section(const Command& command) {
   return text;
 }
 
-struct Row {
+struct Term {
   std::string name, text;
 };
-std::string rows(std::string_view title, const std::vector<Row>& list) {
+std::string rows(std::string_view title, const std::vector<Term>& list) {
   std::string text = fmt::format(".SH {}\n", title);
   for (const auto& row : list) text += fmt::format(".TP\n{}\n{}\n", bold(row.name), roff(row.text));
   return text;

@@ -93,7 +93,8 @@ void add_run(CLI::App& app, int& exit_code) {
   auto* verb =
       app.add_subcommand("run", "Runs a pipeline: results on stdout, files and a record of the run in a folder.");
   const auto options = std::make_shared<RunArguments>();
-  verb->add_option("FILE", options->file, "the pipeline file, or a picture that a run has made (PNG)")
+  verb->add_option("FILE", options->file,
+                   "the pipeline file, the name of an installed one, or a picture that a run has made (PNG)")
       ->required()
       ->type_name("");
   add_settings(*verb, options->settings);

@@ -155,7 +155,7 @@ int run_variants(const SweepArguments& options) {
 }
 
 void add_common(CLI::App& verb, SweepArguments& options) {
-  verb.add_option("FILE", options.file, "the sweep file")->required()->type_name("");
+  verb.add_option("FILE", options.file, "the sweep file, or the name of an installed one")->required()->type_name("");
   add_settings(verb, options.settings);
   verb.add_option("--out", options.out, "the sweep's folder (default: runs/NAME); what is done in it is not done again")
       ->type_name("DIR");

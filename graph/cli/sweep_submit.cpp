@@ -109,11 +109,13 @@ void add_sweep_submit(CLI::App& sweep, int& exit_code) {
                                     "Hands the variants that are not done to Slurm or GNU parallel, what several share "
                                     "first; see share/doc/farm.md.");
   const auto options = std::make_shared<SubmitArguments>();
-  verb->add_option("FILE", options->file, "the sweep file")->required();
+  verb->add_option("FILE", options->file, "the sweep file, or the name of an installed one")->required();
   verb->add_option("ENGINE_OPTIONS", options->engine_options,
                    "after --, passed on to sbatch or parallel: -- --partition=long --time=2:00:00");
   add_settings(*verb, options->settings);
-  verb->add_option("--out", options->out, "the sweep's folder, on a file system that all machines have")->required();
+  verb->add_option("--out", options->out, "the sweep's folder, on a file system that all machines have")
+      ->required()
+      ->type_name("DIR");
   verb->add_option("--engine", options->engine,
                    "slurm: two job arrays (sbatch); parallel: GNU parallel, here or with --sshlogin")
       ->required()

@@ -3,7 +3,8 @@
 #
 # Builds libatrium_<module>.so from the node types <name>: each is a pair of files, <name>.hpp and <name>.cpp, whose header
 # holds the struct <Name> (CamelCase of the file's name) in the namespace <ns> (default: atrium::<module>), with
-# type = "<module>.<name>". Installed to <libdir>/atrium, where the program finds it; during development ATRIUM_PLUGIN_PATH
+# type = "<module>.<name>". Installed to ATRIUM_PLUGIN_FOLDER below the prefix (<libdir>/atrium as Atrium's own build has it), where
+# the program of the same prefix finds it; during development ATRIUM_PLUGIN_PATH
 # can name the build's folder lib/atrium. LAZY is for modules that link large libraries (PCL, VTK): the tables stand in a
 # light library, the functions in libatrium_<module>-run.so, which is loaded when a node of the module first runs; LIGHT names
 # those of NODES that need no large library, whose functions stand beside the tables. DATA names
@@ -11,6 +12,9 @@
 # the module's nodes are run again. Adding a node type is adding the pair of files and its name to NODES.
 include(GNUInstallDirs)
 set(ATRIUM_PLUGIN_TEMPLATE_DIR ${CMAKE_CURRENT_LIST_DIR})
+if(NOT DEFINED ATRIUM_PLUGIN_FOLDER)
+  set(ATRIUM_PLUGIN_FOLDER ${CMAKE_INSTALL_LIBDIR}/atrium)
+endif()
 function(atrium_add_plugin module)
   cmake_parse_arguments(PARSE_ARGV 1 arg "LAZY;NO_INSTALL" "NAMESPACE" "NODES;LIGHT;SOURCES;LIBRARIES;DATA")
   if(NOT arg_NAMESPACE)
@@ -67,10 +71,10 @@ function(atrium_add_plugin module)
     set(data_file ${CMAKE_BINARY_DIR}/lib/atrium/libatrium_${module}.data)
     file(WRITE ${data_file} "${folders}\n")
     if(NOT arg_NO_INSTALL)
-      install(FILES ${data_file} DESTINATION ${CMAKE_INSTALL_LIBDIR}/atrium)
+      install(FILES ${data_file} DESTINATION ${ATRIUM_PLUGIN_FOLDER})
     endif()
   endif()
   if(NOT arg_NO_INSTALL)
-    install(TARGETS ${targets} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/atrium)
+    install(TARGETS ${targets} LIBRARY DESTINATION ${ATRIUM_PLUGIN_FOLDER})
   endif()
 endfunction()

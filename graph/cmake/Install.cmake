@@ -7,7 +7,7 @@ set(header_dir ${CMAKE_INSTALL_INCLUDEDIR}/atrium)
 install(TARGETS atrium_graph atrium_types atrium_geometry EXPORT atriumTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS atrium RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-foreach(folder graph/api graph/pipeline graph/run modules/types modules/geometry)
+foreach(folder graph/api graph/cache graph/pipeline graph/run modules/types modules/geometry)
   get_filename_component(parent ${folder} DIRECTORY)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${header_dir}/${parent} COMPONENT development
           FILES_MATCHING PATTERN "*.hpp")
@@ -26,6 +26,7 @@ install(FILES ${PROJECT_BINARY_DIR}/atriumConfig.cmake ${PROJECT_BINARY_DIR}/atr
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_DATADIR}/atrium)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/pipelines ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_DATADIR}/atrium/pipelines SYMBOLIC)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/pipelines DESTINATION ${CMAKE_INSTALL_DATADIR}/atrium)
+install(FILES ${PROJECT_SOURCE_DIR}/share/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/atrium)
 # Not the scripts that set up, build and try a checkout.
 foreach(folder colormaps doc schema)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/atrium)

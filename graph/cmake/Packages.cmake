@@ -30,7 +30,7 @@ set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "light planar models of buildings from i
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME atrium-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "atrium (= ${PROJECT_VERSION}), libeigen3-dev, libfmt-dev, libboost-dev, libboost-graph-dev")
+    "atrium (= ${PROJECT_VERSION}), libeigen3-dev, libfmt-dev, libboost-dev, libboost-graph-dev, nlohmann-json3-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "files to build plugins for Atrium with
  Atrium turns raw indoor point clouds into light planar models of the building.
  .

@@ -1,7 +1,7 @@
 // Every file tests/bad/NAME.yaml has one kind of mistake, and NAME.expected holds what `atrium check` must say about
 // it. Comment lines that begin with "# -s " in the file are settings of the command line. ${DIR} in the expected text
-// stands for the folder tests/bad, ${PIPELINES} for the installed pipelines. ATRIUM_UPDATE_EXPECTED=1 writes the expected
-// files anew: read them before you commit them.
+// stands for the folder tests/bad, ${PIPELINES} for the installed pipelines. ATRIUM_UPDATE_EXPECTED=1 writes the
+// expected files anew: read them before you commit them.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -135,7 +135,8 @@ TEST(ManualPage, IsSetWithoutWarnings) {
   const TemporaryFolder folder;
   write_text(folder / "atrium.1", generated("man"));
   if (run({"sh", "-c", "command -v groff"}).exit_code == 0) {
-    const auto set = run({"groff", "-man", "-Tutf8", "-Kutf8", "-ww", "-rLL=78n", (folder / "atrium.1").string()});
+    const auto set =
+        run({"groff", "-man", "-Tutf8", "-Kutf8", "-P-cbou", "-ww", "-rLL=78n", (folder / "atrium.1").string()});
     EXPECT_EQ(set.exit_code, 0);
     EXPECT_EQ(set.err, "");
     EXPECT_NE(set.out.find("EXIT STATUS"), std::string::npos);

@@ -27,12 +27,22 @@ unset(ENV{ATRIUM_PLUGIN_PATH})
 call(0 "" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 call(0 "align.none" ${program} nodes align.none)
 foreach(file include/atrium/graph/api/node.hpp include/atrium/modules/types/cloud.hpp share/atrium/pipelines/paper.yaml
-             share/atrium/colormaps/viridis.txt share/atrium/schema/pipeline.schema.json)
+             share/atrium/colormaps/viridis.txt share/atrium/schema/pipeline.schema.json share/atrium/LICENSE share/atrium/doc/licences.md
+             share/doc/atrium/copyright share/man/man1/atrium.1.gz share/bash-completion/completions/atrium)
   if(NOT EXISTS ${prefix}/${file})
     message(FATAL_ERROR "${file} is not installed")
   endif()
 endforeach()
 
+# What is installed is as good on another machine.
+get_filename_component(source ${here}/../.. ABSOLUTE)
+execute_process(COMMAND grep -rlF -e ${BUILD}/ -e ${source}/graph/ -e ${source}/modules/ ${prefix} OUTPUT_VARIABLE files)
+if(files)
+  message(FATAL_ERROR "paths of the build are in installed files:\n${files}")
+endif()
+
+# A pipeline is found by its name, from here as from any folder.
+call(0 "ok: " ${program} check atrium.yaml -s scan=${prefix}/share/atrium/LICENSE)
 call(0 "" ${program} run ${here}/picture.yaml --out ${WORK}/run-picture)
 
 file(COPY ${here}/example_plugin DESTINATION ${WORK})
