@@ -21,21 +21,22 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib ${CMAKE_BINARY_DIR}/lib/atrium)
 # What OpenGL loads by name to draw without a display; no library of ours is linked with it.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "libegl-mesa0, libgl1-mesa-dri")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "bash-completion")
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "light planar models of buildings from indoor point clouds
- Atrium turns raw indoor point clouds (LiDAR, RGB-D, phone scans, simulated)
- into light planar models of the building: walls, floors and ceilings as a few
- large polygons with doors and windows, a floor plan, furniture as a mesh.
- Each algorithm is a node of a dataflow graph that a declarative file wires.")
+Atrium turns raw indoor point clouds (LiDAR, RGB-D, phone scans, simulated)
+into light planar models of the building: walls, floors and ceilings as a few
+large polygons with doors and windows, a floor plan, furniture as a mesh.
+Each algorithm is a node of a dataflow graph that a declarative file wires.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME atrium-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "atrium (= ${PROJECT_VERSION}), libeigen3-dev, libfmt-dev, libboost-dev, libboost-graph-dev, nlohmann-json3-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "files to build plugins for Atrium with
- Atrium turns raw indoor point clouds into light planar models of the building.
- .
- This package has the headers and the CMake package with which node types are
- built outside of Atrium's own tree: find_package(atrium).")
+Atrium turns raw indoor point clouds into light planar models of the building.
+
+This package has the headers and the CMake package with which node types are
+built outside of Atrium's own tree: find_package(atrium).")
 
 # The manual page and the completion are printed by the program from the tables of its command line.
 set(made ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_DATADIR}/atrium-made)
