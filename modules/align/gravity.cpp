@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "modules/geometry/moments.hpp"
 #include "modules/geometry/upright_evidence.hpp"
@@ -173,13 +174,17 @@ void report(const std::vector<Choice>& choices, const Context& context) {
     context.info(text);
 }
 
-Eigen::Vector3d found_up(const PlanePrimitives& planes, const std::vector<FacedArea>& faces, bool y_up, double prior,
-                         const Context& context) {
+/// Up, and how likely it is.
+std::pair<Eigen::Vector3d, double> found_up(const PlanePrimitives& planes, const std::vector<FacedArea>& faces,
+                                            bool y_up, double prior, const Context& context) {
   const auto choices = choices_of(planes, faces, y_up, prior, context);
   report(choices, context);
   constexpr std::size_t most = 4;
   for (std::size_t i = 0; i < std::min(most, choices.size()); ++i) context.info(told(choices[i]));
-  return choices.front().up;
+  double likely = 0;
+  for (const auto& c : choices)
+    if (angle_between(c.up, choices.front().up) <= near_axis) likely += c.probability;
+  return {choices.front().up, std::min(1.0, likely)};
 }
 
 Eigen::Vector3d direction_of(const std::vector<double>& values) {
@@ -200,9 +205,10 @@ Gravity::Out Gravity::run(const In& in, const Params& params, Context& context) 
   const std::vector<FacedArea> faces = faces_of(*in.planes, context);
   const bool forced = !given.isZero(0);
   const bool y_up = params.habit == Habit::automatic ? in.planes->cloud->y_up : params.habit == Habit::y;
-  const Eigen::Vector3d up = forced ? refined_vertical(faces, given.normalized(), near_axis)
-                                    : found_up(*in.planes, faces, y_up, params.prior, context);
-  const Transform turn = upright_turn(up);
+  const auto [up, likely] = forced ? std::pair{refined_vertical(faces, given.normalized(), near_axis), 1.0}
+                                   : found_up(*in.planes, faces, y_up, params.prior, context);
+  Transform turn = upright_turn(up);
+  turn.upright = likely;
   return {transformed(*in.planes, turn), chained(in.transform ? *in.transform : Transform{}, turn)};
 }
 

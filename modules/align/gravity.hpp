@@ -19,8 +19,8 @@ namespace atrium::align {
 /// coordinates only turn.
 ///
 /// Warnings: a turn by more than 5 degrees or another axis than z, with what forces it; evidence that leaves two axes
-/// about equally likely. Errors: an `up` without direction; no plane at
-/// all.
+/// about equally likely. The transform says how likely the choice is (Transform::upright). Errors: an `up` without
+/// direction; no plane at all.
 struct Gravity {
   static constexpr std::string_view type = "align.gravity";
   static constexpr std::string_view summary = "Finds out which way is up, and turns the scene upright.";

@@ -57,6 +57,12 @@ double area_of(const Building& building) {
 /// Judges the building by its rooms and by what they leave out.
 void judge(const PlanePrimitives& planes, const Frame& frame, Building& building) {
   building.confidence = mean_confidence(building);
+  constexpr double certain = 0.9;
+  if (const double upright = frame.back.upright; upright < certain) {
+    building.confidence *= ramp(upright, 0.4, certain, 0.5, 1);
+    building.doubts.push_back(
+        fmt::format("which way is up is not certain ({:.0f} %): align.gravity names the other way", 100 * upright));
+  }
   if (const SlopesLeftOut slopes = slopes_left_out(building, planes); slopes.area > 0) {
     building.confidence *= ramp(slopes.area / area_of(building), 0.05, 0.5, 1, 0.4);
     building.doubts.push_back(

@@ -12,9 +12,9 @@ namespace atrium::layout {
 /// | share | 1 | lower | why |
 /// |---|---|---|---|
 /// | walls seen | from 40 % of their area | 0 at 8 % | the rest is inferred |
-/// | enclosed: wall seen along the outline | from 80 % of its length | 0 at 45 % | a corner or a strip has open sides |
-/// | contact: seen wall on a seen floor, or up to a seen ceiling | from 40 % of that length | 0 at 5 % | furniture,
-/// facades | | floor or ceiling seen, the better of both | from 50 % | 0 at 10 % | with only one of them at most 0.85 |
+/// | enclosed: wall seen along the outline, up to a third of it | from 80 % of its length | 0 at 45 % | open sides |
+/// | contact: seen wall on a seen floor or up to a seen ceiling | from 40 % of that length | 0 at 5 % | furniture |
+/// | floor or ceiling seen, the better of both | from 50 % | 0 at 10 % | with only one of them at most 0.85 |
 /// | height over its best square metre | 2 to 5 m | 0 at 1.2 m; 0.5 at 8 m; 0.4 above 15 m | units, wrong floor |
 /// | area | from 1.5 m2 | 0 at 0.5 m2 | cupboards |
 /// | width (2 area / perimeter) | from 0.4 m | 0 at 0.2 m | slits between two layers of a wall |
@@ -26,7 +26,9 @@ namespace atrium::layout {
 /// cm. The reasons for shares below 0.9 stand in `doubts`, the gravest first.
 ///
 /// The building's confidence is that of its rooms by area, times 1 if they hold 90 % or more of the floor that lies
-/// under a ceiling 1.8 m or more above it, down to 0.3 if they hold 30 % of it (pieces of less than 2 m2 do not count).
+/// under a ceiling 1.8 m or more above it, down to 0.3 if they hold 30 % of it (pieces of less than 2 m2 do not count);
+/// times 1 if z is up with 90 % or more (Transform::upright), down to 0.5 at 40 %; and times 1 if sloping surfaces that
+/// are in no face have 5 % of the rooms' area or less, down to 0.4 at 50 %.
 ///
 /// Rooms below min_confidence are left out, with a warning that names place and reason; openings into them then lead
 /// to what is not known. Storeys without rooms are left out, too. Rooms keep their names. Rooms below doubtful are
@@ -45,7 +47,7 @@ struct Confidence {
   };
   struct Params {
     double min_confidence = 0.15;
-    double doubtful = 0.5;
+    double doubtful = 0.75;
   };
   static constexpr auto inputs = std::tuple{
       port(&In::building, "building", "Closed rooms, with openings if these are known."),

@@ -10,11 +10,12 @@
 namespace atrium::layout {
 namespace {
 
-constexpr double reach = 0.5;        // metres: a wall seen this near to its foot or top stands on the floor there
-constexpr double in_front = 0.3;     // metres before the wall that the floor or ceiling is looked at
-constexpr double least_wall = 0.6;   // metres: lower faces are steps and lintels
-constexpr double least_share = 0.2;  // of a wall's height that must have been seen for it to count as standing there
-constexpr double full_height = 0.6;  // share of the levels that a wall inside of a room fills, the highest among them
+constexpr double reach = 0.5;          // metres: a wall seen this near to its foot or top stands on the floor there
+constexpr double in_front = 0.3;       // metres before the wall that the floor or ceiling is looked at
+constexpr double least_wall = 0.6;     // metres: lower faces are steps and lintels
+constexpr double least_share = 0.2;    // of a wall's height that must have been seen for it to count as standing there
+constexpr double least_top = 1.0 / 3;  // of a wall's height that what was seen reaches: below that it is furniture
+constexpr double full_height = 0.6;    // share of the levels that a wall inside of a room fills, the highest among them
 
 class Measuring {
  public:
@@ -32,7 +33,9 @@ class Measuring {
         const Column column = column_of(grid, x);
         if (column.squares * grid.step().y() < least_wall) continue;
         length += grid.step().x();
-        if (column.seen < least_share * column.squares) continue;
+        if (column.seen < least_share * column.squares ||
+            column.highest_seen - column.lowest < least_top * column.squares)
+          continue;
         seen_length += grid.step().x();
         if (stands(grid, x, column)) standing += grid.step().x();
       }

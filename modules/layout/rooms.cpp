@@ -44,7 +44,9 @@ class Energy {
     const LayoutCell& cell = storey_.cells[i];
     // Where no ceiling was scanned, what stands between walls that look towards it counts for one.
     const double shown = std::max(cell.ceiling_cover, within_walls(cell) * std::max(cell.floor_cover, cell.any_cover));
-    const double inside = params_.ceiling_weight * shown + params_.floor_weight * cell.floor_cover;
+    // There, furniture speaks for a floor, too.
+    const double floor = ceiling_ ? cell.floor_cover : std::max(cell.floor_cover, cell.any_cover);
+    const double inside = params_.ceiling_weight * shown + params_.floor_weight * floor;
     cut_.add(i, inside * cell.area, params_.outside_weight * (1 - shown) * cell.area);
   }
 

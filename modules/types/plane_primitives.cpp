@@ -37,12 +37,13 @@ PlanePrimitives transformed(const PlanePrimitives& primitives, const Transform& 
 }
 
 Transform chained(const Transform& first, const Transform& second) {
-  return {second.rotation * first.rotation, second.rotation * first.translation + second.translation};
+  return {second.rotation * first.rotation, second.rotation * first.translation + second.translation,
+          first.upright * second.upright};
 }
 
 Transform inverse(const Transform& transform) {
   const Eigen::Matrix3d back = transform.rotation.transpose();
-  return {back, -(back * transform.translation)};
+  return {back, -(back * transform.translation), transform.upright};
 }
 
 }  // namespace atrium

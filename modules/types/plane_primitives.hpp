@@ -40,9 +40,12 @@ struct PlanePrimitives {
 /// acts on true positions: a value's origin moves, its local coordinates only turn.
 struct Transform {
   static constexpr std::string_view port_type = "Transform";
-  static constexpr auto members() { return std::tuple{&Transform::rotation, &Transform::translation}; }
+  static constexpr auto members() {
+    return std::tuple{&Transform::rotation, &Transform::translation, &Transform::upright};
+  }
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< metres
+  double upright = 1;  ///< probability that the target frame's z points up, where that was found out
 };
 
 /// The cloud in the transform's target frame: origin, points, normals and sensors.

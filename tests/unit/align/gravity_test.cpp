@@ -87,6 +87,8 @@ TEST(AlignGravity, BelievesZWhereNothingTells) {
   const auto habit =
       Gravity::run({input(without_sides(cube.planes())), {}}, {.habit = Gravity::Habit::y}, warnings.context());
   EXPECT_NEAR((habit.transform.rotation * Vector3d::UnitY() - Vector3d::UnitZ()).norm(), 0, 1e-6);
+  EXPECT_NEAR(habit.transform.upright, 0.6, 0.1);
+  EXPECT_NEAR(out.transform.upright, 0.9, 0.05);
   // Unless it is set, the cloud knows it.
   PlanePrimitives planes = without_sides(cube.planes());
   Cloud cloud = *planes.cloud;

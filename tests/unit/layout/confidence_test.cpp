@@ -31,13 +31,14 @@ struct Judged {
   }
 };
 
-Judged judged(const Building& building, const Scene& scene, const Confidence::Params& params = {}) {
+Judged judged(const Building& building, const Scene& scene, const Confidence::Params& params = {},
+              const Transform& transform = {}) {
   Judged result;
   Context context(1, result.warnings);
   Structure structure;
   structure.primitives = std::make_shared<const PlanePrimitives>(scene.planes());
   try {
-    result.building = Confidence::run({input(building), input(structure), {}}, params, context).building;
+    result.building = Confidence::run({input(building), input(structure), input(transform)}, params, context).building;
     check(result.building);
   } catch (const Error& error) {
     result.error = error.what();
@@ -243,6 +244,16 @@ TEST(Confidence, StoreysWithoutRoomsAreLeftOut) {
   EXPECT_EQ(result.building.storeys[0].elevation, 0);
   EXPECT_EQ(result.room().storey, 0);
   for (const auto& face : result.building.faces) EXPECT_EQ(face.storey, 0);
+}
+
+TEST(Confidence, AnUncertainAxisIsADoubtOfTheBuilding) {
+  Transform transform;
+  transform.upright = 0.6;
+  const auto result = judged(box(), shown({}), {}, transform);
+  EXPECT_NEAR(result.building.confidence, 0.7, 1e-12);
+  EXPECT_DOUBLE_EQ(result.room().confidence, 1);
+  EXPECT_TRUE(result.warnings->mention("which way is up is not certain (60 %)"));
+  ASSERT_EQ(result.building.doubts.size(), 1U);
 }
 
 TEST(Confidence, DoubtfulRoomsAreWarnedOfAndNamedWhereTheyAre) {
