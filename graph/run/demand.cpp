@@ -134,9 +134,16 @@ bool Scheduler::replay(std::size_t n, const CacheRecord& found) {
   record.wall = wall_seconds() - start_ - start;
   record.cpu = thread_cpu_seconds() - cpu;
   progress_.finished(record);
-  settle(n, {});
-  progress_.described(record);
+  settle_with_cache(n, {});
   return true;
+}
+
+/// As soon as a node is settled, another thread may run it again, for its values, and write its record: what is told of
+/// it is what it was before.
+void Scheduler::settle_with_cache(std::size_t n, const std::vector<Value>& outputs) {
+  const NodeRecord done = result_.nodes[n];
+  settle(n, outputs);
+  if (done.status == NodeStatus::ok) progress_.described(done);
 }
 
 /// A node whose value the node needs and that cannot be made again, if there is one: then the node waits for it, to be

@@ -114,11 +114,7 @@ void Scheduler::execute(std::size_t n) {
   std::vector<Value> outputs;
   std::optional<std::uint64_t> growth;
   bool ok = call_watched(n, std::move(inputs), outputs, growth);
-  if (ok) {
-    record.facts.clear();
-    for (const auto& value : outputs)
-      record.facts.push_back(value.facts == nullptr ? std::vector<Fact>{} : value.facts(value.data.get()));
-  }
+  if (ok) note_facts(n, outputs);
   if (ok && cache_ != nullptr) {  // the nodes that read the outputs need their hashes
     describe(n, outputs);
     ok = !again || hashes_are_right(n);
@@ -132,9 +128,13 @@ void Scheduler::execute(std::size_t n) {
     settle_again(n, outputs);
   } else {
     progress_.finished(record);
-    settle(n, outputs);
-    if (ok && cache_ == nullptr) describe(n, outputs);
-    if (ok) progress_.described(record);
+    if (cache_ == nullptr) {
+      settle(n, outputs);
+      if (ok) describe(n, outputs);
+      if (ok) progress_.described(record);
+    } else {
+      settle_with_cache(n, outputs);
+    }
   }
   if (options_.memory > 0) give_memory_back(n, growth);
 }
@@ -217,10 +217,27 @@ bool Scheduler::call(std::size_t n, const Inputs& inputs, std::vector<Value>& ou
 }
 
 void Scheduler::fail(std::size_t n, std::string message, std::string help) {
+  const std::lock_guard lock(mutex_);  // of a node that is run again others read the status (lost_producer)
   NodeRecord& record = result_.nodes[n];
   record.status = NodeStatus::failed;
   record.message = std::move(message);
   record.help = std::move(help);
+}
+
+void Scheduler::note_facts(std::size_t n, const std::vector<Value>& outputs) {
+  NodeRecord& record = result_.nodes[n];
+  record.facts.assign(outputs.size(), {});
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (outputs[i].facts == nullptr) continue;
+    const std::string& port = pipeline_.nodes[n].type->outputs[i].name;
+    try {
+      record.facts[i] = outputs[i].facts(outputs[i].data.get());
+    } catch (const std::exception& error) {
+      record.warnings.push_back("output '" + port + "' could not be summed up: " + error.what());
+    } catch (...) {
+      record.warnings.push_back("output '" + port + "' could not be summed up");
+    }
+  }
 }
 
 void Scheduler::describe(std::size_t n, const std::vector<Value>& outputs) {

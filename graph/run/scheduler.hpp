@@ -64,6 +64,7 @@ class Scheduler {
   void give_memory_back(std::size_t n, std::optional<std::uint64_t> growth);
   bool call(std::size_t n, const Inputs& inputs, std::vector<Value>& outputs);
   void fail(std::size_t n, std::string message, std::string help);
+  void note_facts(std::size_t n, const std::vector<Value>& outputs);
   void describe(std::size_t n, const std::vector<Value>& outputs);
   void settle(std::size_t n, const std::vector<Value>& outputs);
   bool cancelled() const;
@@ -73,6 +74,7 @@ class Scheduler {
   void look(std::size_t n);
   bool find_key(std::size_t n);
   bool replay(std::size_t n, const CacheRecord& found);
+  void settle_with_cache(std::size_t n, const std::vector<Value>& outputs);
   void fetch(std::size_t p);
   void settle_again(std::size_t n, const std::vector<Value>& outputs);
   void abandon(std::size_t n);

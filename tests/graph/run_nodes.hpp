@@ -62,6 +62,27 @@ struct Sum {
   }
 };
 
+/// A value of which nothing can be told.
+struct Secret {
+  static constexpr std::string_view port_type = "Secret";
+  static constexpr auto members() { return std::tuple{&Secret::value}; }
+  static std::vector<Fact> facts(const Secret& /*secret*/) { throw std::runtime_error("it is secret"); }
+  double value = 0;
+};
+struct Hide {
+  static constexpr std::string_view type = "test.hide";
+  static constexpr std::string_view summary = "Gives a value of which nothing can be told.";
+  struct In {};
+  struct Out {
+    Secret secret;
+  };
+  struct Params {};
+  static constexpr auto inputs = std::tuple{};
+  static constexpr auto outputs = std::tuple{port(&Out::secret, "secret", "A value.")};
+  static constexpr auto params = std::tuple{};
+  static Out run(const In& /*in*/, const Params& /*params*/, Context& /*context*/) { return {}; }
+};
+
 /// Calls a function of the test.
 struct Call {
   static constexpr std::string_view type = "test.call";
