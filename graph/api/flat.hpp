@@ -229,7 +229,12 @@ void read_pointer(T& value, FlatReader& in) {
 
 template <class T>
 void read_flat(T& value, FlatReader& in) {
-  if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+  if constexpr (std::is_same_v<T, bool>) {  // another byte in a bool would be undefined behaviour
+    std::uint8_t byte = 0;
+    in.bytes(&byte, 1);
+    if (byte > 1) throw Error("a truth value is neither 0 nor 1");
+    value = byte == 1;
+  } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
     in.bytes(&value, sizeof(T));
   } else if constexpr (EigenFixed<T>) {
     in.bytes(value.data(), sizeof(*value.data()) * static_cast<std::size_t>(value.size()));

@@ -30,12 +30,15 @@ std::vector<std::size_t> Adjacency::neighbours(std::size_t mesh) const {
 }
 
 Adjacency::Contents Adjacency::contents(const Adjacency& adjacency) {
-  return {adjacency.vertices(), adjacency.edges()};
+  Contents contents(adjacency.vertices());
+  for (const Edge& edge : adjacency.edges()) contents[edge.a].emplace_back(edge.b, edge.separation);
+  return contents;
 }
 
 Adjacency Adjacency::from_contents(const Contents& contents) {
-  Adjacency adjacency(contents.first);
-  for (const Edge& edge : contents.second) adjacency.connect(edge.a, edge.b, edge.separation);
+  Adjacency adjacency(contents.size());
+  for (std::size_t a = 0; a < contents.size(); ++a)
+    for (const auto& [b, separation] : contents[a]) adjacency.connect(a, b, separation);
   return adjacency;
 }
 

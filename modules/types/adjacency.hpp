@@ -30,8 +30,9 @@ class Adjacency {
   /// Neighbours of a mesh, ascending.
   std::vector<std::size_t> neighbours(std::size_t mesh) const;
 
-  /// Number of vertices, and the edges.
-  using Contents = std::pair<std::uint64_t, std::vector<Edge>>;
+  /// For each vertex the neighbours with a higher number, ascending, and how far they are. A stored form in which a
+  /// number stood for the vertices would have to be believed.
+  using Contents = std::vector<std::vector<std::pair<std::uint64_t, double>>>;
   static Contents contents(const Adjacency& adjacency);
   static Adjacency from_contents(const Contents& contents);
 
