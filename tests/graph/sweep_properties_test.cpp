@@ -145,9 +145,7 @@ Done run(const fs::path& file, const fs::path& out, Cache& cache, Registry& regi
   return done;
 }
 
-RC_GTEST_PROP(SweepProperties, GrowingASweepRunsNothingAgain, ()) {
-  static int tried = 0;
-  if (++tried > 20) return;  // each writes hundreds of files
+void growing_a_sweep_runs_nothing_again() {
   const Folder folder;
   Types types;
   Cache cache({folder.path() / "cache"});
@@ -179,6 +177,16 @@ RC_GTEST_PROP(SweepProperties, GrowingASweepRunsNothingAgain, ()) {
     for (const auto& node : other.variants.at(id).nodes) RC_ASSERT(node.known);
   }
   for (const auto& [id, result] : same.variants) RC_ASSERT(result.reused == before.variants.contains(id));
+}
+
+TEST(SweepProperties, GrowingASweepRunsNothingAgain) {
+  rc::detail::TestParams params = rc::detail::configuration().testParams;
+  params.maxSuccess = std::min(params.maxSuccess, 20);  // each writes hundreds of files
+  const auto result =
+      rc::detail::checkTestable(&growing_a_sweep_runs_nothing_again, rc::detail::TestMetadata{}, params);
+  std::ostringstream text;
+  printResultMessage(result, text);
+  EXPECT_TRUE(result.is<rc::detail::SuccessResult>()) << text.str();
 }
 
 }  // namespace

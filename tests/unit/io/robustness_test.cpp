@@ -12,8 +12,8 @@ namespace atrium::io {
 namespace {
 
 /// Small files of every format. Whatever is done to them, a reader gives a value or throws Error: it never crashes,
-/// hangs or takes memory that the file's size does not justify (the address-sanitizer build of CI watches over the
-/// rest).
+/// hangs or reads what is not there (tests/sanitize runs this with AddressSanitizer; tests/fuzz looks for what is worse
+/// than these edits, and for memory that the file's size does not justify).
 class Robustness : public Files {
  protected:
   Robustness() {

@@ -1,0 +1,223 @@
+// Writes tests/fuzz/corpus anew, with Atrium's own writers: fuzz_seeds tests/fuzz/corpus
+#include <fmt/format.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "graph/cache/blob.hpp"
+#include "graph/cache/record.hpp"
+#include "modules/io/write_building.hpp"
+#include "modules/io/write_cloud.hpp"
+#include "modules/io/write_mesh.hpp"
+#include "modules/io/write_truth.hpp"
+#include "modules/io/write_vg.hpp"
+#include "modules/types/adjacency.hpp"
+#include "modules/types/cell_complex.hpp"
+#include "modules/types/floor_plan.hpp"
+#include "modules/types/metrics.hpp"
+#include "modules/types/simulated_scene.hpp"
+#include "modules/types/textures.hpp"
+#include "tests/support/box_building.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace atrium {
+namespace {
+
+namespace fs = std::filesystem;
+fs::path corpus;
+
+/// A host that writes into the corpus.
+class Host : public ContextHost {
+ public:
+  explicit Host(fs::path folder) : folder_(std::move(folder)) {}
+  void log(Level /*level*/, std::string_view /*text*/) override {}
+  fs::path output_folder() override { return folder_; }
+
+ private:
+  fs::path folder_;
+};
+
+Context writing_to(const std::string& target) {
+  fs::create_directories(corpus / target);
+  return {1, std::make_shared<Host>(corpus / target)};
+}
+
+void write(const std::string& target, const std::string& name, const std::string& text) {
+  fs::create_directories(corpus / target);
+  test::write_text(corpus / target / name, text);
+}
+
+Cloud some_cloud() {
+  Cloud cloud;
+  for (int i = 0; i < 6; ++i) {
+    cloud.points.emplace_back(0.5F * static_cast<float>(i), static_cast<float>(i % 2), 1.0F);
+    cloud.normals.emplace_back(0, 0, 1);
+    cloud.colours.push_back({static_cast<std::uint8_t>(20 * i), 100, 3});
+    cloud.intensities.push_back(0.5F);
+    cloud.labels.push_back(i);
+  }
+  cloud.sensors = {{0.5F, 1, 2}};
+  return cloud;
+}
+
+Mesh some_mesh() {
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}};
+  mesh.classes = {SurfaceClass::floor, SurfaceClass::wall, SurfaceClass::wall};
+  mesh.primitives = {0, 1, 2};
+  return mesh;
+}
+
+GroundTruth some_truth() {
+  GroundTruth truth;
+  truth.rooms = {{"hall", 0, {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}}};
+  TrueFace floor;
+  floor.surface = SurfaceClass::floor;
+  floor.room = 0;
+  floor.plane.normal = {0, 0, 1};
+  floor.outline = truth.rooms[0].outline;
+  floor.holes = {{{0.5, 0.5, 0}, {0.5, 1, 0}, {1, 1, 0}, {1, 0.5, 0}}};
+  truth.faces = {floor};
+  truth.openings = {{"slab", 0, -1, 0, -1, 0.2, {{0.5, 0.5, 0}, {1, 0.5, 0}, {1, 1, 0}, {0.5, 1, 0}}}};
+  return truth;
+}
+
+void write_files() {
+  const auto cloud = input(some_cloud());
+  const auto mesh = input(some_mesh());
+  for (const std::string format : {"ply", "pcd"}) {
+    Context context = writing_to(format);
+    io::WriteCloud::run({cloud}, {{"cloud_binary." + format}, true}, context);
+    io::WriteCloud::run({cloud}, {{"cloud_text." + format}, false}, context);
+  }
+  for (const std::string format : {"ply", "obj", "stl"}) {
+    Context context = writing_to(format);
+    io::WriteMesh::run({mesh}, {{"mesh." + format}, true}, context);
+    if (format != "obj") io::WriteMesh::run({mesh}, {{"mesh_text." + format}, false}, context);
+  }
+  const test::TemporaryFolder folder;
+  Context aside(1, std::make_shared<Host>(folder.path()));
+  char choice = 0;  // of tests/fuzz/readers.cpp
+  for (const std::string name : {"cloud.xyz", "cloud.txt", "cloud.csv"}) {
+    io::WriteCloud::run({cloud}, {{name}, false}, aside);
+    write("text", name, std::string(1, choice) + test::read_text(folder / name));
+    choice = static_cast<char>(choice == 0 ? 1 : 3);
+  }
+  write("text", "cloud.pts",
+        "\2"
+        "3\n0 0 0 12 255 0 7\n1 0 0 -3 1 2 3\n0 1 0.5 0 9 9 9\n");
+  PlanePrimitive plane;
+  plane.plane.normal = {0, 0, 1};
+  plane.plane.offset = -1;
+  plane.inliers = {0, 1, 2, 3, 4, 5};
+  const auto planes = input(PlanePrimitives{std::make_shared<const Cloud>(some_cloud()), {plane}});
+  for (const std::string format : {"vg", "bvg"}) {
+    Context context = writing_to(format);
+    io::WriteVg::run({planes}, {{"planes." + format}}, context);
+  }
+}
+
+void write_json() {
+  Context buildings = writing_to("building");
+  test::BoxBuilding box;
+  box.room(0, 0, 4, 3);
+  io::WriteBuilding::run({input(box.building), {}, {}}, {{"one_room.json"}}, buildings);
+  io::WriteBuilding::run({input(test::BoxBuilding::two_rooms()), {}, {}}, {{"two_rooms.json"}}, buildings);
+  Context layouts = writing_to("layout");
+  io::WriteTruth::run({input(some_truth())}, {{"truth.json"}}, layouts);
+  write("layout", "rooms.json",
+        R"({"rooms": [{"corners": [[0,0],[3,0],[3,2],[0,2]], "name": "hall", "storey": 0, "floor": 0.0, "height": 2.5},
+ {"corners": [[3,0,0],[5,0,0],[5,2,0],[3,2,0]]}]})");
+  write("layout", "corners.json", "[[[0,0],[3,0],[3,2],[0,2]]]");
+  write("layout", "planes.json",
+        R"({"planes": [{"label": "FLOOR", "corners": [[0,0,0],[2,0,0],[2,2,0],[0,2,0]], "normal_out": [0,0,-1]},
+ {"label": "WALL_FACE", "corners": [[0,0,0],[2,0,0],[2,0,2],[0,0,2]], "normal_out": [0,-1,0]},
+ {"label": "WALL_FACE", "corners": [[2,0,0],[2,2,0],[2,2,2],[2,0,2]], "normal_out": [1,0,0]},
+ {"label": "WALL_FACE", "corners": [[2,2,0],[0,2,0],[0,2,2],[2,2,2]], "normal_out": [0,1,0]},
+ {"label": "WALL_FACE", "corners": [[0,2,0],[0,0,0],[0,0,2],[0,2,2]], "normal_out": [-1,0,0]},
+ {"label": "DOOR_FRAME", "corners": [[0.5,0,0],[1,0,0],[1,0,1.9],[0.5,0,1.9]], "normal_out": [0,-1,0]}]})");
+}
+
+void write_texts() {
+  write("pipeline", "all.yaml", R"(atrium: 1
+summary: Planes of a cloud.
+seed: 7
+vars: {unit: 3 cm}
+nodes:
+  cloud: {type: test.make}
+  planes: {type: test.find, in: {cloud: cloud.cloud}, params: {distance: "${unit}", method: hough, box: [1, 2, 30 cm]}}
+  sub: {pipeline: sub.yaml, in: {cloud: planes.rest}, vars: {unit: 4 cm}}
+  joined: {type: test.join, in: {clouds: [cloud.cloud, planes.rest]}, params: {names: [a, b], weights: [1]}}
+  write: {type: test.write, in: {planes: sub.planes}, params: {path: p.vg}}
+outputs: {planes: planes.planes, all: joined.cloud}
+)");
+  write("sweep", "all.yaml", R"(atrium: 1
+sweep: base.yaml
+summary: Many.
+set: {planes.refit: false}
+scenes: {near: {unit: 1 cm}, far: {unit: 1 m}}
+seeds: [1, 2]
+grid: {planes.angle: [10, 20 deg]}
+list: {hough: {planes.method: hough}, growing: {planes.type: test.grow}}
+exclude: [{scene: near, planes.angle: 10}]
+)");
+  write("sweep", "random.yaml", R"(atrium: 1
+sweep: base.yaml
+zip: {planes.angle: [1, 2], planes.share: [0.1, 0.2]}
+ablate: {all: {planes.refit: false}}
+random: {samples: 3, seed: 7, of: {planes.distance: {uniform: [1 cm, 4 cm]}}}
+)");
+  CacheRecord record;
+  record.fields = {{"type", "test.find"}, {"version", "1"}, {"distance", "0.5 m"}};
+  record.key = NodeKey{record.fields}.hex();
+  record.node = "shell/planes";
+  record.made = "2024-02-03T04:05:06Z";
+  record.outputs = {
+      {"planes", "Planes", 12, std::string(32, 'a'), {{"planes", std::int64_t{3}, ""}, {"area", 2.5, "m2"}}}};
+  record.warnings = {"few points"};
+  record.files = {{"planes.vg", 5, std::string(32, 'b')}};
+  record.growth = 1000;
+  const std::string text = record_text(record);
+  write("record", "record.json", text.substr(text.find('\n') + 1));
+}
+
+template <class T>
+void write_blob_of(int choice, const char* name, const T& value) {
+  constexpr std::size_t head = 64, digest = 32;
+  const test::TemporaryFolder folder;
+  write_blob(folder / "blob", *flat_type<T>(), &value, content_hash(value));
+  const std::string bytes = test::read_text(folder / "blob");
+  write("blob", name, static_cast<char>(choice) + bytes.substr(head, bytes.size() - head - digest));
+}
+
+void write_blobs() {
+  int choice = 0;  // in the order of tests/fuzz/graph.cpp
+  Adjacency adjacency(3);
+  adjacency.connect(0, 1, 0.5);
+  write_blob_of(choice++, "adjacency", adjacency);
+  write_blob_of(choice++, "building", test::BoxBuilding::two_rooms());
+  write_blob_of(choice++, "cell_complex", CellComplex{});
+  write_blob_of(choice++, "cloud", some_cloud());
+  write_blob_of(choice++, "floor_plan", FloorPlan{});
+  write_blob_of(choice++, "ground_truth", some_truth());
+  write_blob_of(choice++, "metrics", Metrics{});
+  write_blob_of(choice++, "simulated_scene", SimulatedScene{});
+  write_blob_of(choice++, "textures", Textures{});
+}
+
+}  // namespace
+}  // namespace atrium
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    fmt::print(stderr, "usage: fuzz_seeds FOLDER\n");
+    return 2;
+  }
+  atrium::corpus = argv[1];
+  atrium::write_files();
+  atrium::write_json();
+  atrium::write_texts();
+  atrium::write_blobs();
+}

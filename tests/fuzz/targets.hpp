@@ -1,0 +1,36 @@
+#pragma once
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace atrium::fuzz {
+
+/// What is fuzzed, by name. `run` gives the bytes to the code under test; it throws nothing but what is a finding.
+struct Target {
+  std::string_view name;
+  void (*run)(std::string_view bytes);
+};
+const std::vector<Target>& targets();
+
+/// A folder in memory of this process, removed at its end.
+const std::filesystem::path& folder();
+/// Puts the bytes into the folder's file of that name, in place of what it held, and gives its path.
+std::filesystem::path put(const char* name, std::string_view bytes);
+
+// Files of modules/io:
+void read_ply(std::string_view bytes);
+void read_pcd(std::string_view bytes);
+void read_obj(std::string_view bytes);
+void read_stl(std::string_view bytes);
+void read_text_cloud(std::string_view bytes);  ///< the first byte chooses the extension
+void read_vg(std::string_view bytes);
+void read_bvg(std::string_view bytes);
+void read_building(std::string_view bytes);
+void read_layout(std::string_view bytes);
+// Files of graph/:
+void check_pipeline(std::string_view bytes);
+void plan_sweep_file(std::string_view bytes);
+void read_cache_record(std::string_view bytes);  ///< without its first line, the hash of the rest
+void read_cache_blob(std::string_view bytes);    ///< the first byte chooses the type, the others are the flat form
+
+}  // namespace atrium::fuzz

@@ -1,0 +1,2 @@
+#pragma once
+#include "tests/support/threads/tbb.hpp"
