@@ -53,6 +53,10 @@ function(atrium_add_plugin module)
   set_target_properties(atrium_${module} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/atrium
                                                     INSTALL_RPATH "$ORIGIN;$ORIGIN/.." INSTALL_RPATH_USE_LINK_PATH ON)
   set(targets atrium_${module})
+  if(TARGET atrium_precompiled AND NOT arg_LAZY)  # the large libraries come with macros and flags of their own
+    target_precompile_headers(atrium_${module} REUSE_FROM atrium_precompiled)
+    target_compile_options(atrium_${module} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  endif()
   if(arg_LAZY)
     set(macro ATRIUM_LAZY_PLUGIN)
     set(structs "atrium::detail::Types<${structs}>{},\n              atrium::detail::Types<${light_structs}>{}")
