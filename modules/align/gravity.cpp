@@ -10,6 +10,7 @@
 
 #include "modules/geometry/moments.hpp"
 #include "modules/geometry/upright_evidence.hpp"
+#include "modules/types/turn_between.hpp"
 
 namespace atrium::align {
 namespace {
@@ -140,11 +141,9 @@ Transform upright_turn(const Eigen::Vector3d& up) {
   if (axis.z() < 0)
     first = Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX());
   else if (axis.z() == 0)
-    first = Eigen::Quaterniond::FromTwoVectors(axis, Eigen::Vector3d::UnitZ());
+    first = turn_between(axis, Eigen::Vector3d::UnitZ());
   Transform turn;
-  turn.rotation = (Eigen::Quaterniond::FromTwoVectors(first * up, Eigen::Vector3d::UnitZ()) * first)
-                      .normalized()
-                      .toRotationMatrix();
+  turn.rotation = (turn_between(first * up, Eigen::Vector3d::UnitZ()) * first).normalized().toRotationMatrix();
   return turn;
 }
 

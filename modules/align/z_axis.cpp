@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "modules/types/turn_between.hpp"
+
 namespace atrium::align {
 namespace {
 
@@ -60,10 +62,10 @@ ZAxis::Out ZAxis::run(const In& in, const Params& params, Context& context) {
   const Eigen::Vector3d normal = (upwards ? up : down).normal;
   const Eigen::Vector3d target = upwards ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d(-Eigen::Vector3d::UnitZ());
   // First the given direction onto +z, then what is left: both by the least rotation.
-  const Eigen::Quaterniond first = Eigen::Quaterniond::FromTwoVectors(vertical, Eigen::Vector3d::UnitZ());
+  const Eigen::Quaterniond first = turn_between(vertical, Eigen::Vector3d::UnitZ());
   const Eigen::Vector3d roughly = first * normal;
   Transform turn;
-  turn.rotation = (Eigen::Quaterniond::FromTwoVectors(roughly, target) * first).normalized().toRotationMatrix();
+  turn.rotation = (turn_between(roughly, target) * first).normalized().toRotationMatrix();
   const double tilt = std::acos(std::min(1.0, roughly.dot(target))) * 180.0 / std::numbers::pi;
   context.info(fmt::format("{} of {} planes decide; tilt {:.2f} deg", upwards ? up.planes : down.planes,
                            in.planes->primitives.size(), tilt));

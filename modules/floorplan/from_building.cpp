@@ -8,6 +8,7 @@
 #include "modules/floorplan/regions.hpp"
 #include "modules/floorplan/walls.hpp"
 #include "modules/types/building_rules.hpp"
+#include "modules/types/turn_between.hpp"
 
 namespace atrium::floorplan {
 namespace {
@@ -33,7 +34,7 @@ Building placed(const FromBuilding::In& in, FloorPlan& plan) {
   const Eigen::Vector3d up = back.rotation * Eigen::Vector3d::UnitZ();
   constexpr double level = 1e-9;
   if ((up - Eigen::Vector3d::UnitZ()).norm() > level)
-    plan.to_plan.rotation = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    plan.to_plan.rotation = turn_between(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   plan.to_plan.translation = plan.origin - plan.to_plan.rotation * plan.origin;
   return with_origin(transformed(source, chained(back, plan.to_plan)), plan.origin);
 }

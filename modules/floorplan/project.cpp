@@ -10,6 +10,7 @@
 #include "modules/floorplan/median.hpp"
 #include "modules/floorplan/rooms.hpp"
 #include "modules/floorplan/walls.hpp"
+#include "modules/types/turn_between.hpp"
 
 namespace atrium::floorplan {
 namespace {
@@ -63,7 +64,7 @@ Eigen::Matrix3d upright(const Project::In& in, double tolerance) {
   const Eigen::Vector3d up =
       in.transform ? Eigen::Vector3d(in.transform->rotation.transpose() * Eigen::Vector3d::UnitZ()) : up_of(*in.mesh);
   if (up.z() >= std::cos(tolerance * std::numbers::pi / 180)) return Eigen::Matrix3d::Identity();
-  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return turn_between(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
 std::vector<Surface> of_class(const std::vector<Surface>& surfaces, SurfaceClass wanted) {

@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "modules/types/turn_between.hpp"
+
 namespace atrium::io {
 
 std::vector<GlbGroup> glb_groups(const Mesh& mesh) {
@@ -88,7 +90,7 @@ Eigen::Matrix3d glb_rotation(const Eigen::Vector3d& up) {
   constexpr double level = 0.99619;  // cosine of 5 degrees
   const Eigen::Vector3d left = turn * up;
   if (left.y() > level) return turn;
-  return Eigen::Quaterniond::FromTwoVectors(left, Eigen::Vector3d::UnitY()).toRotationMatrix() * turn;
+  return turn_between(left, Eigen::Vector3d::UnitY()).toRotationMatrix() * turn;
 }
 
 std::array<double, 3> linear(const Colour& colour) {

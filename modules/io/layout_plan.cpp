@@ -3,6 +3,7 @@
 #include <map>
 
 #include "modules/io/truth_json.hpp"
+#include "modules/types/turn_between.hpp"
 
 namespace atrium::io {
 namespace {
@@ -16,7 +17,7 @@ Eigen::Matrix3d upright(const GroundTruth& truth) {
   if (!(up.norm() > 0)) return Eigen::Matrix3d::Identity();
   up.normalize();
   if ((up - Eigen::Vector3d::UnitZ()).norm() < 1e-9) return Eigen::Matrix3d::Identity();
-  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return turn_between(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
 PlanRing from_above(const Ring& ring) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "modules/io/building_json.hpp"
+#include "modules/types/turn_between.hpp"
 
 namespace atrium::io {
 
@@ -14,7 +15,7 @@ ReadBuilding::Out ReadBuilding::run(const In& /*in*/, const Params& params, Cont
   if (up == Eigen::Vector3d::UnitZ()) {
     out.building = std::move(building);
   } else {
-    out.transform.rotation = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    out.transform.rotation = turn_between(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     out.building = transformed(building, out.transform);
   }
   return out;

@@ -8,6 +8,7 @@
 
 #include "modules/geometry/grid_walk.hpp"
 #include "modules/normal/surfels.hpp"
+#include "modules/types/turn_between.hpp"
 
 namespace atrium::normal {
 namespace {
@@ -35,7 +36,7 @@ class FreeSpace {
 
   /// How far rays travel on the side of the surfel's axis less how far on the other.
   double balance(const Surfel& surfel) const {
-    const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), surfel.axis);
+    const Eigen::Quaternionf turn = turn_between(Eigen::Vector3d::UnitZ(), surfel.axis.cast<double>()).cast<float>();
     double sum = 0;
     for (const Eigen::Vector3f& d : directions_) {
       const Eigen::Vector3f direction = turn * d;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "modules/geometry/grid_walk.hpp"
+#include "modules/types/turn_between.hpp"
 
 namespace atrium::plane {
 namespace {
@@ -66,8 +67,7 @@ class SeenFrom {
     if (grid_ == nullptr) return 0;
     constexpr double clear = 0.4;
     constexpr std::size_t parts = 4;
-    const Eigen::Quaterniond turn =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), primitive.plane.normal);
+    const Eigen::Quaterniond turn = turn_between(Eigen::Vector3d::UnitZ(), primitive.plane.normal);
     const std::vector<std::uint32_t> places = places_of(primitive);
     double before = 0, behind = 0, share = 0;
     for (std::size_t part = 0; part < parts && std::abs(share) < clear; ++part) {

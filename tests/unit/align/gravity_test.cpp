@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "modules/types/turn_between.hpp"
 #include "tests/support/rooms.hpp"
 #include "tests/support/warnings.hpp"
 
@@ -22,7 +23,7 @@ Transform turn(const Vector3d& axis, double degrees) {
 Transform frame_with(const Vector3d& up) {
   Transform t;
   t.rotation = up.z() < -0.99 ? AngleAxisd(std::numbers::pi, Vector3d::UnitX()).toRotationMatrix()
-                              : Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up).toRotationMatrix();
+                              : turn_between(Vector3d::UnitZ(), up).toRotationMatrix();
   return t;
 }
 

@@ -7,6 +7,7 @@
 
 #include "modules/floorplan/caption.hpp"
 #include "modules/floorplan/regions.hpp"
+#include "modules/types/turn_between.hpp"
 #include "tests/support/box_building.hpp"
 #include "tests/unit/floorplan/buildings.hpp"
 
@@ -42,8 +43,7 @@ TEST(FloorplanOriginHeight, IsAlongTheInputsUp) {
   // A little tilt far from the origin does not move it; where y points up, y is the height.
   plan.to_plan.rotation = Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitX()).toRotationMatrix();
   EXPECT_EQ(origin_height(plan), 312);
-  plan.to_plan.rotation =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  plan.to_plan.rotation = turn_between(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()).toRotationMatrix();
   EXPECT_NEAR(origin_height(plan), -5, 1e-9);
 }
 

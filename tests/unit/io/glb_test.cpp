@@ -12,6 +12,7 @@
 #include "modules/synth/flat.hpp"
 #include "modules/synth/scan.hpp"
 #include "modules/types/palette.hpp"
+#include "modules/types/turn_between.hpp"
 #include "tests/support/process.hpp"
 
 namespace atrium::io {
@@ -400,7 +401,7 @@ TEST_F(GlbFiles, StandsUprightWhateverIsUpInTheFrameOfTheMesh) {
   for (const Vector3d& up : {Vector3d(0, 0, 1), Vector3d(0, 1, 0), Vector3d(0, -1, 0), Vector3d(1, 0, 0),
                              Vector3d(-1, 0, 0), Vector3d(0.3, 0.8, -0.5).normalized()}) {
     Transform to_upright;
-    to_upright.rotation = Eigen::Quaterniond::FromTwoVectors(up, Vector3d::UnitZ()).toRotationMatrix();
+    to_upright.rotation = turn_between(up, Vector3d::UnitZ()).toRotationMatrix();
     Mesh mesh = upright;
     for (auto& v : mesh.vertices) v = to_upright.rotation.transpose() * v;
     WriteMesh::In in{input(mesh), {}};
