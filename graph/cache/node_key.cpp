@@ -83,7 +83,7 @@ const BuildIds::Build& BuildIds::build_of(const NodeType& type) {
   }
   std::sort(build.files.begin(), build.files.end());
   build.fingerprint = fingerprints(build.files);
-  std::string text = std::string(ATRIUM_STAMP) + "\n";
+  std::string text = fmt::format("{}\n", ATRIUM_STAMP);
   for (const auto& file : build.files) text += fmt::format("{} {}\n", file.filename().string(), files_.of(file));
   ContentHash hash;
   hash.bytes(text.data(), text.size());
