@@ -29,9 +29,6 @@ double off_chord(const Eigen::Vector3d& before, const Eigen::Vector3d& here, con
   return (off - chord * off.dot(chord)).norm();
 }
 
-}  // namespace
-namespace {
-
 /// The angle by which one turns to the left at b on the way from a to c, −π … π.
 double turn(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
             const Eigen::Vector3d& normal) {

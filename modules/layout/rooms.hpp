@@ -10,7 +10,8 @@ namespace atrium::layout {
 /// - A cell under a ceiling that was seen should be inside, one over a floor as well (ceiling_weight and floor_weight
 ///   times the covered area); as far as no ceiling was seen over it, it should be outside (outside_weight times that
 ///   area), whatever was seen of its floor. In a storey whose ceiling was not scanned (it shows less than three tenths
-///   of what the floor does), the floor, or what stands on it where that is more, counts for the ceiling.
+///   of what the floor does), the floor, or what stands on it where that is more, counts for the floor and between
+///   walls for the ceiling.
 /// - A wall was seen from inside: the cell before it should be inside, the one behind it outside (wall_weight times its
 ///   area, if it reaches the ceiling), the latter less the more of floor or ceiling was seen there.
 /// - A border between inside and outside should be a wall that looks inside: its area that is none costs

@@ -37,12 +37,6 @@ void replace(PipelineBuilder& builder, std::size_t n, Call::Function function) {
   Call::functions[static_cast<std::size_t>(std::get<std::int64_t>(builder.pipeline().nodes[n].params[0]))] =
       std::move(function);
 }
-std::size_t add_call(PipelineBuilder& builder, const std::string& name, Call::Function function,
-                     std::vector<Edge> after = {}) {
-  const auto n = builder.add<Call>(name, {std::move(after)});
-  give(builder, n, std::move(function));
-  return n;
-}
 
 RunResult run(PipelineBuilder& builder, const std::filesystem::path& folder, ProgressSink& sink, int threads = 2) {
   Cache cache({folder});

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "graph/api/node.hpp"
+#include "tests/support/pipeline_builder.hpp"
 
 // Small node types for the tests of the runner.
 namespace atrium::test {
@@ -105,5 +106,14 @@ struct Call {
     return {functions.at(static_cast<std::size_t>(params.which))(context)};
   }
 };
+
+/// Adds a node that calls the function, after what `after` comes from; returns its number.
+inline std::size_t add_call(PipelineBuilder& builder, const std::string& name, Call::Function function,
+                            std::vector<Edge> after = {}) {
+  Call::functions.push_back(std::move(function));
+  const auto n = builder.add<Call>(name, {std::move(after)});
+  builder.set("which", static_cast<std::int64_t>(Call::functions.size() - 1));
+  return n;
+}
 
 }  // namespace atrium::test

@@ -31,14 +31,6 @@ RunResult run(const Pipeline& pipeline, int threads = 2, const std::atomic<bool>
   return run_pipeline(pipeline, options, silent);
 }
 
-std::size_t add_call(PipelineBuilder& builder, const std::string& name, Call::Function function,
-                     std::vector<Edge> after = {}) {
-  Call::functions.push_back(std::move(function));
-  const auto n = builder.add<Call>(name, {std::move(after)});
-  builder.set("which", static_cast<std::int64_t>(Call::functions.size() - 1));
-  return n;
-}
-
 /// Waits until it is so; false if that takes more than twenty seconds.
 bool in_time(const std::function<bool()>& so) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
