@@ -57,6 +57,7 @@ Cloud with_columns_of(const Cloud& cloud, std::size_t size) {
   result.sensors = cloud.sensors;
   result.unit = cloud.unit;
   result.y_up = cloud.y_up;
+  result.crs = cloud.crs;
   result.points.resize(size);
   result.normals.resize(cloud.normals.empty() ? 0 : size);
   result.colours.resize(cloud.colours.empty() ? 0 : size);

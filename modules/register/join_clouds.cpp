@@ -56,6 +56,9 @@ void join_sensors(const Inputs<Cloud>& clouds, const Poses& poses, Cloud& result
 Cloud join(const Inputs<Cloud>& clouds, const Poses& poses, const Context& context) {
   Cloud result;
   result.origin = clouds.front()->origin;
+  result.unit = clouds.front()->unit;
+  result.y_up = clouds.front()->y_up;
+  result.crs = clouds.front()->crs;
   const bool normals = all_have(clouds, &Cloud::normals, "normals", context);
   const bool colours = all_have(clouds, &Cloud::colours, "colours", context);
   const bool labels = all_have(clouds, &Cloud::labels, "labels", context);

@@ -26,6 +26,7 @@ Cloud select(const Cloud& cloud, const std::vector<std::uint32_t>& indices) {
   result.sensors = cloud.sensors;
   result.unit = cloud.unit;
   result.y_up = cloud.y_up;
+  result.crs = cloud.crs;
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -17,8 +18,9 @@ using Colour = std::array<std::uint8_t, 3>;  ///< red, green, blue
 struct Cloud {
   static constexpr std::string_view port_type = "Cloud";
   static constexpr auto members() {
-    return std::tuple{&Cloud::origin,      &Cloud::points, &Cloud::normals, &Cloud::colours, &Cloud::labels,
-                      &Cloud::intensities, &Cloud::source, &Cloud::sensors, &Cloud::unit,    &Cloud::y_up};
+    return std::tuple{&Cloud::origin, &Cloud::points,      &Cloud::normals, &Cloud::colours,
+                      &Cloud::labels, &Cloud::intensities, &Cloud::source,  &Cloud::sensors,
+                      &Cloud::unit,   &Cloud::y_up,        &Cloud::crs};
   }
 
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -31,6 +33,8 @@ struct Cloud {
   std::vector<Eigen::Vector3f> sensors;  ///< where the scanner stood, in the same frame as points (origin + sensor)
   double unit = 1;    ///< metres per unit of the file that it was read from; all lengths here are metres
   bool y_up = false;  ///< files of that format usually have y up, not z: a habit, not a fact
+  std::string crs;    ///< coordinate reference system of that file: WKT, or "EPSG:25832"; empty: the file names none.
+                      ///< Like `unit` it stays what it is when the cloud is turned: writers go back to the file's frame
 
   std::size_t size() const { return points.size(); }
   bool has_normals() const { return !normals.empty(); }

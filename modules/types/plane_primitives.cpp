@@ -25,6 +25,7 @@ Cloud transformed(const Cloud& cloud, const Transform& transform) {
   result.source = cloud.source;
   result.sensors = turned(cloud.sensors, turn);
   result.unit = cloud.unit;
+  result.crs = cloud.crs;
   return result;
 }
 
