@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -65,7 +66,9 @@ struct RawGeometry {
 /// Rows of doubles for what has to be decoded first (text, records of variable length): one column a role.
 class Table {
  public:
-  Table(std::size_t rows, std::vector<Role> roles) : roles_(std::move(roles)), values_(rows * roles_.size()) {}
+  /// Holds a row even where there are none, so that its columns have an address and say that they are there.
+  Table(std::size_t rows, std::vector<Role> roles)
+      : roles_(std::move(roles)), values_(std::max<std::size_t>(rows, 1) * roles_.size()) {}
   double* row(std::size_t i) { return values_.data() + i * roles_.size(); }
   std::size_t width() const { return roles_.size(); }
   /// Makes the table's columns those of the geometry, which keeps it alive.

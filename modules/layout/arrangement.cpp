@@ -113,4 +113,9 @@ void Arrangement::cut(std::int32_t id, const Line& line, double begin, double en
     if (meets(cells_[i], line, begin, end)) cut_cell(i, id, line);
 }
 
+void Arrangement::cut_one(std::size_t cell, std::int32_t id, const Line& line) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  if (meets(cells_[cell], line, -far, far)) cut_cell(cell, id, line);
+}
+
 }  // namespace atrium::layout

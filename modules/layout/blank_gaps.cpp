@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/layout/wall_pairs.hpp"
+
 namespace atrium::layout {
 namespace {
 
@@ -11,9 +13,12 @@ constexpr double least_gap_side = 0.8;     // of a side of the rim
 constexpr double before_gap = 0.6;         // metres before the wall: what stands there hides it
 constexpr std::size_t few_before_gap = 6;  // points: fewer hide nothing
 
+constexpr double least_clean_side = 0.9;  // of each side of the rim of a window that shows nothing
+constexpr double least_in_sight = 0.7;    // of its squares
+constexpr double least_pane = 0.3;        // m²
+
 struct Gap {
-  std::size_t face;
-  FaceHole hole;
+  BlankGap gap;
   std::size_t in_front = 0;
 };
 
@@ -30,7 +35,9 @@ double solid_share(const FaceMask& mask, const Eigen::AlignedBox2d& band) {
   return all > 0 ? static_cast<double>(solid) / static_cast<double>(all) : 0;
 }
 
-bool has_clean_rim(const FaceMask& mask, double spacing, const Eigen::AlignedBox2d& box) {
+/// The least share of a side of the rim that was seen.
+double least_side(const FaceMask& mask, double spacing, const Eigen::AlignedBox2d& box) {
+  double least = 1;
   const double near = mask.pixel() + 0.5 * spacing, far = near + std::max(0.15, spacing);
   for (int side = 0; side < 4; ++side) {
     const int axis = side / 2;
@@ -42,9 +49,9 @@ bool has_clean_rim(const FaceMask& mask, double spacing, const Eigen::AlignedBox
       band.min()[axis] = box.max()[axis] + near;
       band.max()[axis] = box.max()[axis] + far;
     }
-    if (solid_share(mask, band) < least_gap_side) return false;
+    least = std::min(least, solid_share(mask, band));
   }
-  return true;
+  return least;
 }
 
 /// Every square without points counts.
@@ -66,21 +73,40 @@ void find_gaps(std::size_t face, const FaceMask& mask, const FaceEvidence& evide
       const bool filled = static_cast<double>(left.count(*squares, Square::hole)) >= params.min_fill * all;
       left.fill(*squares, Square::solid);
       const Eigen::Vector2d half = Eigen::Vector2d::Constant(pixel / 2);
-      FaceHole hole;
-      hole.frame = evidence.frame;
-      hole.box = {mask.centre(squares->min().x(), squares->min().y()) - half,
-                  mask.centre(squares->max().x(), squares->max().y()) + half};
-      const Eigen::Vector2d size = hole.box.sizes();
+      const Eigen::AlignedBox2d box(mask.centre(squares->min().x(), squares->min().y()) - half,
+                                    mask.centre(squares->max().x(), squares->max().y()) + half);
+      const Eigen::Vector2d size = box.sizes();
       const bool fits = size.x() >= params.min_width && size.y() >= params.min_height && size.x() <= widest_gap;
-      const bool known = std::any_of(found.begin(), found.end(),
-                                     [&](const FaceHole& other) { return other.box.intersects(hole.box); });
-      if (filled && fits && !known && has_clean_rim(mask, evidence.spacing, hole.box)) gaps.push_back({face, hole});
+      const bool known =
+          std::any_of(found.begin(), found.end(), [&](const FaceHole& other) { return other.box.intersects(box); });
+      if (!filled || !fits || known) continue;
+      const double rim = least_side(mask, evidence.spacing, box);
+      if (rim < least_gap_side) continue;
+      BlankGap gap{face, fitted_hole(*squares, evidence), false};
+      gap.hole.kind = "window";
+      gap.window = rim >= least_clean_side && size.prod() >= least_pane &&
+                   static_cast<double>(mask.count(*squares, Square::hole)) >= least_in_sight * all;
+      gaps.push_back({std::move(gap), 0});
     }
+}
+
+/// Whether another room's face stands behind a part of a hole.
+bool has_back(const Building& building, const std::vector<std::size_t>& behind, const FaceHole& hole) {
+  const auto outline = outline_of(hole);
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto& p : outline) middle += p / static_cast<double>(outline.size());
+  return std::any_of(behind.begin(), behind.end(), [&](std::size_t f) {
+    const BuildingFace& back = building.faces[f];
+    const auto over = [&](const Eigen::Vector3d& p) {
+      return face_contains(building, back, p - back.plane.normal * back.plane.signed_distance(p), 0.02);
+    };
+    return over(middle) || std::any_of(outline.begin(), outline.end(), over);
+  });
 }
 
 }  // namespace
 
-std::vector<FaceHole> blank_gaps(const Building& building, const Cloud& cloud, const std::vector<FaceMask>& masks,
+std::vector<BlankGap> blank_gaps(const Building& building, const Cloud& cloud, const std::vector<FaceMask>& masks,
                                  const Evidence& evidence, const Found& found, const Openings::Params& params) {
   std::vector<Gap> gaps;
   for (std::size_t f = 0; f < masks.size(); ++f)
@@ -89,15 +115,19 @@ std::vector<FaceHole> blank_gaps(const Building& building, const Cloud& cloud, c
   if (gaps.empty()) return {};
   for (const auto& point : cloud.points) {
     const Eigen::Vector3d p = point.cast<double>();
-    for (Gap& gap : gaps) {
-      const double distance = building.faces[gap.face].plane.signed_distance(p);
-      if (distance > before_gap || distance < 2 * evidence[gap.face].tolerance) continue;
-      gap.in_front += gap.hole.box.contains(gap.hole.frame.to_plane(p)) ? 1 : 0;
+    for (Gap& g : gaps) {
+      const double distance = building.faces[g.gap.face].plane.signed_distance(p);
+      if (distance > before_gap || distance < 2 * evidence[g.gap.face].tolerance) continue;
+      g.in_front += g.gap.hole.box.contains(g.gap.hole.frame.to_plane(p)) ? 1 : 0;
     }
   }
-  std::vector<FaceHole> result;
-  for (auto& gap : gaps)
-    if (gap.in_front < few_before_gap) result.push_back(std::move(gap.hole));
+  const auto behind = opposite_faces(building);
+  std::vector<BlankGap> result;
+  for (auto& g : gaps) {
+    if (g.in_front >= few_before_gap) continue;
+    g.gap.window = g.gap.window && !has_back(building, behind[g.gap.face], g.gap.hole);
+    result.push_back(std::move(g.gap));
+  }
   return result;
 }
 

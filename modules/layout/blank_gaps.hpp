@@ -6,11 +6,17 @@
 
 namespace atrium::layout {
 
-/// Gaps of a window's size in walls, with a rim that was seen all around, nothing seen behind them and nothing that
-/// stands before them: panes that no ray came back from, or pictures and shelves that left no points. They are no
-/// openings, since nothing shows them, but a plan without them may lack windows. `masks`: of the evidence, before holes
-/// were taken from it; `found`: the holes. Cost: one pass over the cloud.
-std::vector<FaceHole> blank_gaps(const Building& building, const Cloud& cloud, const std::vector<FaceMask>& masks,
+/// A gap of a window's size in a wall, with a rim that was seen all around, nothing seen behind it and nothing that
+/// stands before it: a pane that no ray came back from, or a picture or shelf that left no points.
+struct BlankGap {
+  std::size_t face = 0;
+  FaceHole hole;
+  bool window = false;  ///< in an outer wall, in sight, and as clean as panes are: it is taken for a window
+};
+
+/// Those gaps, by face. `masks`: of the evidence, before holes were taken from it; `found`: the holes. Cost: one pass
+/// over the cloud.
+std::vector<BlankGap> blank_gaps(const Building& building, const Cloud& cloud, const std::vector<FaceMask>& masks,
                                  const Evidence& evidence, const Found& found, const Openings::Params& params);
 
 }  // namespace atrium::layout

@@ -199,20 +199,6 @@ double ceiling_over(const StoreyCells& storey, bool scanned, std::int32_t cell, 
   return storey.ceilings[static_cast<std::size_t>(best->surface)].height_at(p);
 }
 
-/// Share of the rows just below the ceiling in which a wall's raster has points at p or in a square beside it.
-double reaches(const Footprint& wall, const Eigen::Vector2d& p, double floor, double ceiling) {
-  constexpr double gap = 0.05, band = 0.30, enough = 0.6;
-  const Raster& r = wall.raster;
-  const double top = std::max(ceiling - gap, floor);
-  const int column = r.column(wall.along.dot(p));
-  const int last = r.row(top - 1e-9);
-  const int first = std::min(last, r.row(std::max(floor, top - band)));
-  int seen = 0;
-  for (int row = first; row <= last; ++row)
-    seen += r.at(column, row) || r.at(column - 1, row) || r.at(column + 1, row) ? 1 : 0;
-  return std::min(1.0, seen / (enough * (last - first + 1)));
-}
-
 /// Whether a wall's raster shows a tall face at p: it may end below the ceiling where that was not scanned.
 bool is_tall(const Footprint& wall, const Eigen::Vector2d& p, double floor, double ceiling) {
   constexpr double enough = 1, least_share = 0.4;  // metres; of the storey's height
@@ -281,7 +267,7 @@ void measure_edge(const Structure& structure, const std::vector<Footprint>& foot
       const bool looks_left = structure.primitives->primitives[index].plane.normal.head<2>().dot(left) > 0;
       const double ceiling = ceiling_over(storey, scanned, looks_left ? edge.left : edge.right, p);
       const std::size_t side = looks_left ? 0 : 1;
-      seen[side] = std::max(seen[side], reaches(footprints[index], p, storey.floor_height, ceiling));
+      seen[side] = std::max(seen[side], wall_reach(footprints[index], p, storey.floor_height, ceiling));
       tall[side] = tall[side] || is_tall(footprints[index], p, storey.floor_height, ceiling);
       top[side] = std::max(top[side], top_at(footprints[index], p, storey));
     }
@@ -297,6 +283,19 @@ void measure_edge(const Structure& structure, const std::vector<Footprint>& foot
 }
 
 }  // namespace
+
+double wall_reach(const Footprint& wall, const Eigen::Vector2d& p, double floor, double ceiling) {
+  constexpr double gap = 0.05, band = 0.30, enough = 0.6;
+  const Raster& r = wall.raster;
+  const double top = std::max(ceiling - gap, floor);
+  const int column = r.column(wall.along.dot(p));
+  const int last = r.row(top - 1e-9);
+  const int first = std::min(last, r.row(std::max(floor, top - band)));
+  int seen = 0;
+  for (int row = first; row <= last; ++row)
+    seen += r.at(column, row) || r.at(column - 1, row) || r.at(column + 1, row) ? 1 : 0;
+  return std::min(1.0, seen / (enough * (last - first + 1)));
+}
 
 bool ceiling_scanned(const StoreyCells& storey) {
   double floor = 0;
@@ -317,6 +316,12 @@ double mean_residual(const PlanePrimitives& planes) {
     points += static_cast<double>(primitive.inliers.size());
   }
   return points > 0 ? sum / points : 0;
+}
+
+Eigen::Vector2d middle_of(const StoreyCells& storey, const LayoutCell& cell) {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const auto corner : cell.corners) middle += storey.vertices[corner];
+  return middle / static_cast<double>(cell.corners.size());
 }
 
 bool is_inside(const std::vector<Eigen::Vector2d>& vertices, const std::vector<std::uint32_t>& corners,

@@ -93,17 +93,6 @@ double least_sum(const BuildingFace& face, const FaceEvidence& evidence, const O
   return 0.5 * std::max(width / pixel, 1.0) * std::max(height / pixel, 1.0);
 }
 
-FaceHole hole_of(const Eigen::AlignedBox2i& squares, const FaceEvidence& evidence) {
-  FaceHole hole;
-  hole.frame = evidence.frame;
-  const Eigen::Vector2d half = Eigen::Vector2d::Constant(evidence.mask.pixel() / 2);
-  hole.box = {evidence.mask.centre(squares.min().x(), squares.min().y()) - half,
-              evidence.mask.centre(squares.max().x(), squares.max().y()) + half};
-  fit_sides(evidence, hole);
-  hole.box = hole.box.intersection(evidence.mask.box());
-  return hole;
-}
-
 /// Says what kind of opening a hole is; false if it is too small for any.
 bool name_hole(const Openings::Params& params, const BuildingFace& face, const Eigen::AlignedBox2d& all,
                FaceHole& hole) {
@@ -228,6 +217,17 @@ void drop_fringes(std::vector<FaceHole>& holes, const FaceEvidence& evidence) {
 
 }  // namespace
 
+FaceHole fitted_hole(const Eigen::AlignedBox2i& squares, const FaceEvidence& evidence) {
+  FaceHole hole;
+  hole.frame = evidence.frame;
+  const Eigen::Vector2d half = Eigen::Vector2d::Constant(evidence.mask.pixel() / 2);
+  hole.box = {evidence.mask.centre(squares.min().x(), squares.min().y()) - half,
+              evidence.mask.centre(squares.max().x(), squares.max().y()) + half};
+  fit_sides(evidence, hole);
+  hole.box = hole.box.intersection(evidence.mask.box());
+  return hole;
+}
+
 std::vector<FaceHole> face_holes(const BuildingFace& face, FaceEvidence& evidence, const Openings::Params& params) {
   std::vector<FaceHole> result;
   if (!evidence.looked_at() || face.primitive < 0) return result;
@@ -238,7 +238,7 @@ std::vector<FaceHole> face_holes(const BuildingFace& face, FaceEvidence& evidenc
       const bool filled = fills(evidence.mask, *squares, params.min_fill);
       evidence.mask.fill(*squares, Square::solid);
       if (!filled) continue;
-      FaceHole hole = hole_of(*squares, evidence);
+      FaceHole hole = fitted_hole(*squares, evidence);
       if (name_hole(params, face, evidence.mask.box(), hole) && seen_through(evidence, hole)) {
         hole.foot = evidence.mask.box().min().y();
         hole.foot_hidden = face.surface == SurfaceClass::wall && has_hidden_foot(evidence, hole);

@@ -21,6 +21,9 @@ struct FaceHole {
   bool doubtful = false;                 ///< too little of the face around it was seen
 };
 
+/// A rectangle of squares as a hole, its sides moved to where the face's points around it begin.
+FaceHole fitted_hole(const Eigen::AlignedBox2i& squares, const FaceEvidence& evidence);
+
 /// The rectangles that the evidence's hole squares fill, where something shows behind them. Uses the squares up.
 std::vector<FaceHole> face_holes(const BuildingFace& face, FaceEvidence& evidence, const Openings::Params& params);
 

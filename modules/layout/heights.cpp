@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "modules/layout/coverage.hpp"
 #include "modules/layout/inferred_ceilings.hpp"
 #include "modules/layout/min_cut.hpp"
 #include "modules/layout/raster.hpp"
@@ -14,13 +15,6 @@ namespace atrium::layout {
 namespace {
 
 constexpr double none = 1e6;  // the cost of what must not be
-
-/// The mean of a cell's corners.
-Eigen::Vector2d middle_of(const StoreyCells& storey, const LayoutCell& cell) {
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const auto c : cell.corners) middle += storey.vertices[c];
-  return middle / static_cast<double>(cell.corners.size());
-}
 
 /// One labelling: the cells of all rooms of a storey by surfaces.
 class Labelling {

@@ -12,13 +12,26 @@
 namespace atrium::layout {
 namespace {
 
-void warn_of(const std::vector<FaceHole>& gaps, const Context& context) {
-  const auto largest = std::max_element(
-      gaps.begin(), gaps.end(), [](const FaceHole& a, const FaceHole& b) { return a.box.volume() < b.box.volume(); });
-  context.warn(
-      fmt::format("{} gaps in walls have the size of windows, but nothing was seen behind them: they are left "
-                  "closed (the largest is {:.2f} m wide and {:.2f} m high)",
-                  gaps.size(), largest->box.sizes().x(), largest->box.sizes().y()));
+/// "3 ‹what› (the largest is 1.60 m wide and 1.20 m high)"
+std::string told(const std::vector<BlankGap>& gaps, std::string_view what) {
+  const auto largest = std::max_element(gaps.begin(), gaps.end(), [](const BlankGap& a, const BlankGap& b) {
+    return a.hole.box.volume() < b.hole.box.volume();
+  });
+  return fmt::format("{} {} (the largest is {:.2f} m wide and {:.2f} m high)", gaps.size(), what,
+                     largest->hole.box.sizes().x(), largest->hole.box.sizes().y());
+}
+
+/// Gaps that are windows become holes; of both kinds the user is told.
+void take_blank_windows(std::vector<BlankGap> gaps, Found& found, const Context& context) {
+  const auto closed = std::stable_partition(gaps.begin(), gaps.end(), [](const BlankGap& gap) { return gap.window; });
+  const std::vector<BlankGap> left(closed, gaps.end());
+  gaps.erase(closed, gaps.end());
+  for (const auto& gap : gaps) found[gap.face].push_back(gap.hole);
+  if (!gaps.empty()) context.info(told(gaps, "windows show nothing behind them: their rims tell them"));
+  if (!left.empty())
+    context.warn(told(left,
+                      "gaps in walls have the size of windows, but nothing was seen behind them: they are left "
+                      "closed"));
 }
 
 }  // namespace
@@ -47,7 +60,7 @@ Openings::Out Openings::run(const In& in, const Params& params, Context& context
   for (const auto& e : evidence) masks.push_back(e.mask);
   Found found(building.faces.size());
   for_each_face([&](std::size_t f) { found[f] = face_holes(building.faces[f], evidence[f], params); });
-  const auto gaps = blank_gaps(building, cloud, masks, evidence, found, params);
+  take_blank_windows(blank_gaps(building, cloud, masks, evidence, found, params), found, context);
   std::size_t doubtful = 0;
   for (auto& holes : found) doubtful += std::erase_if(holes, [](const FaceHole& hole) { return hole.doubtful; });
   building.openings = joined(building, found, params.max_door_width);
@@ -59,7 +72,6 @@ Openings::Out Openings::run(const In& in, const Params& params, Context& context
                            count("door"), count("passage"), count("window"), count("slab"), building.walls.size()));
   if (doubtful > 0)
     context.info(fmt::format("{} openings are left out: too little of the faces around them was seen", doubtful));
-  if (!gaps.empty()) warn_of(gaps, context);
   Building relative;  // the openings alone, to the building's own origin
   relative.origin = building.origin;
   relative.openings = std::move(building.openings);

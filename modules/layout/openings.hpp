@@ -17,6 +17,10 @@ namespace atrium::layout {
 ///   are min_width wide and min_height high (in floors and ceilings: both min_slab_width), if min_fill of them is a
 ///   hole (hidden squares count half), and if something shows through them, more than strays do: a reveal at least.
 ///   Their sides are moved to where the face's points begin around them, or to the jambs of the reveal.
+/// - Panes often show nothing behind them. A gap in an outer wall is a window all the same if nine tenths of each side
+/// of
+///   its rim were seen, most of it is in sight, it has 0.3 m² or more, and nothing stands up to 0.6 m before it. The
+///   log counts these; gaps that are less clean are left closed, with a warning.
 /// - What begins within sill_height over its face's foot, or hides its foot and joins two rooms or has a leaf, is a
 ///   door and reaches the foot; wider than max_door_width it is a passage. One that joins no rooms, shows no leaf and
 ///   has no floor beyond is glazed: a window, as all others are.

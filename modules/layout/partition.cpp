@@ -2,87 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <unordered_map>
 
 #include "modules/layout/coverage.hpp"
+#include "modules/layout/plan_cells.hpp"
 #include "modules/layout/storey_planes.hpp"
 
 namespace atrium::layout {
 namespace {
-
-Eigen::AlignedBox2d extent_of(const StoreyPlanes& planes, const std::vector<Footprint>& footprints) {
-  Eigen::AlignedBox2d box;
-  for (const auto* surfaces : {&planes.floors, &planes.ceilings})
-    for (const auto& s : *surfaces) {
-      if (s.primitive < 0) continue;
-      const Raster& r = footprints[static_cast<std::size_t>(s.primitive)].raster;
-      box.extend(r.low);
-      box.extend(r.high());
-    }
-  for (const auto& wall : planes.lines) {
-    const Eigen::Vector2d foot = -wall.line.offset * wall.line.normal;
-    box.extend(foot + wall.begin * wall.line.along());
-    box.extend(foot + wall.end * wall.line.along());
-  }
-  return box;
-}
-
-double area_of(const std::vector<Eigen::Vector2d>& vertices, const std::vector<std::uint32_t>& corners) {
-  double twice = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector2d a = vertices[corners[i]] - vertices[corners[0]];
-    const Eigen::Vector2d b = vertices[corners[(i + 1) % corners.size()]] - vertices[corners[0]];
-    twice += a.x() * b.y() - a.y() * b.x();
-  }
-  return twice / 2;
-}
-
-void take_cells(const Arrangement& arrangement, StoreyCells& storey) {
-  storey.vertices = arrangement.vertices();
-  std::unordered_map<std::uint64_t, std::uint32_t> edges;  // by their vertices
-  for (const auto& source : arrangement.cells()) {
-    const auto index = static_cast<std::int32_t>(storey.cells.size());
-    LayoutCell cell;
-    cell.corners = source.corners;
-    cell.area = area_of(storey.vertices, cell.corners);
-    for (std::size_t i = 0; i < source.corners.size(); ++i) {
-      const std::uint32_t a = source.corners[i];
-      const std::uint32_t b = source.corners[(i + 1) % source.corners.size()];
-      const std::uint64_t key = (std::uint64_t{std::min(a, b)} << 32U) | std::max(a, b);
-      const auto [it, is_new] = edges.emplace(key, static_cast<std::uint32_t>(storey.edges.size()));
-      if (is_new) {
-        storey.edges.push_back({a, b, index, -1, source.lines[i]});
-      } else {
-        CellEdge& edge = storey.edges[it->second];
-        (edge.from == a ? edge.left : edge.right) = index;
-        edge.line = std::max(edge.line, source.lines[i]);
-      }
-      cell.edges.push_back(it->second);
-    }
-    storey.cells.push_back(std::move(cell));
-  }
-}
-
-/// The sides of the box are lines too, for rooms that nothing ends before.
-void add_border(const Eigen::AlignedBox2d& box, StoreyCells& storey) {
-  const auto first = static_cast<std::int32_t>(storey.lines.size());
-  for (int side = 0; side < 4; ++side)
-    storey.lines.push_back({Eigen::Vector2d::Unit(side / 2), -(side % 2 == 0 ? box.min() : box.max())[side / 2], {}});
-  for (auto& edge : storey.edges) {
-    if (edge.line >= 0) continue;
-    const Eigen::Vector2d middle = (storey.vertices[edge.from] + storey.vertices[edge.to]) / 2;
-    const auto off = [&](std::int32_t line) {
-      const CellLine& l = storey.lines[static_cast<std::size_t>(line)];
-      return std::abs(l.normal.dot(middle) + l.offset);
-    };
-    edge.line = first;
-    for (std::int32_t line = first + 1; line < first + 4; ++line)
-      if (off(line) < off(edge.line)) edge.line = line;
-  }
-}
 
 StoreyCells cut_storey(const StoreyPlanes& planes, const std::vector<Footprint>& footprints,
                        const Partition::Params& params) {
@@ -95,7 +22,7 @@ StoreyCells cut_storey(const StoreyPlanes& planes, const std::vector<Footprint>&
   storey.ceiling_height = planes.ceiling_height;
   storey.floors = planes.floors;
   storey.ceilings = planes.ceilings;
-  const Eigen::AlignedBox2d box = extent_of(planes, footprints);
+  const Eigen::AlignedBox2d box = extent_of({&planes.floors, &planes.ceilings}, planes.lines, footprints);
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(params.margin);
   const Eigen::AlignedBox2d wide(box.min() - margin, box.max() + margin);
   Arrangement arrangement(wide.min(), wide.max(), tolerance);

@@ -6,6 +6,10 @@
 
 namespace atrium::layout {
 
+constexpr double least_walled = 0.7;      ///< of the rim of a raised floor; a bed in a corner has half
+constexpr double least_raised = 3.0;      ///< m²: a smaller level surface over the floor is furniture
+constexpr double least_sheltered = 0.25;  ///< of a floor: less of it than this is the ground outside
+
 /// How far a floor is part of a building, told by what stands over and around it: the ground outside that a scan shows
 /// through windows can be larger than all rooms.
 class Shelter {

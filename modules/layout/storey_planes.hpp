@@ -1,21 +1,12 @@
 #pragma once
-#include <utility>
 #include <vector>
 
-#include "modules/layout/arrangement.hpp"
 #include "modules/layout/raster.hpp"
+#include "modules/layout/wall_lines.hpp"
 #include "modules/types/cell_complex.hpp"
 #include "modules/types/structure.hpp"
 
 namespace atrium::layout {
-
-/// A line of a storey and the walls on it.
-struct WallLine {
-  Arrangement::Line line;
-  double begin = 0, end = 0;  ///< where its evidence lies, along line.along()
-  double area = 0;            ///< of the walls' squares, square metres
-  std::vector<std::int32_t> primitives;
-};
 
 /// What one storey is made of: candidates, and where they were seen.
 struct StoreyPlanes {

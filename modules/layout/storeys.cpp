@@ -24,13 +24,10 @@ struct Level {
   double sheltered_area() const { return area * sheltered; }
 };
 
-constexpr double main_share = 0.5;        // of the largest floor: as large as one
-constexpr double least_large = 2.0;       // m²: what may be a slab at all
-constexpr double lower_ceilings = 0.5;    // metres under the main one, where no floor tells what is a ceiling
-constexpr double low_step = 0.25;         // metres: a floor so little higher needs no walls around it
-constexpr double least_raised = 3.0;      // m²: a smaller level surface over the floor is furniture
-constexpr double least_walled = 0.7;      // of the rim of a raised floor; a bed in a corner has half
-constexpr double least_sheltered = 0.25;  // of a floor: less of it than this is the ground outside
+constexpr double main_share = 0.5;      // of the largest floor: as large as one
+constexpr double least_large = 2.0;     // m²: what may be a slab at all
+constexpr double lower_ceilings = 0.5;  // metres under the main one, where no floor tells what is a ceiling
+constexpr double low_step = 0.25;       // metres: a floor so little higher needs no walls around it
 
 class Finder {
  public:

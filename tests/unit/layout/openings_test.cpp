@@ -86,8 +86,9 @@ TEST(Openings, AWindowWithItsReveal) {
   }
 }
 
-TEST(Openings, BehindAHoleSomethingMustShow) {
-  EXPECT_TRUE(laid_out(room_with(window).planes()).building.openings.empty());
+TEST(Openings, BehindAHoleDownToTheFloorSomethingMustShow) {
+  const AlignedBox2d hole(Vector2d(1.5, 0), Vector2d(2.4, 2.05));
+  EXPECT_TRUE(laid_out(room_with(hole).planes()).building.openings.empty());
 }
 
 TEST(Openings, SparsePointsLeaveNoHolesButTheWindow) {

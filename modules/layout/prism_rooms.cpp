@@ -1,0 +1,310 @@
+#include "modules/layout/prism_rooms.hpp"
+
+#include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "modules/layout/coverage.hpp"
+#include "modules/layout/room_cells.hpp"
+
+namespace atrium::layout {
+namespace {
+
+using Inside = std::vector<std::vector<bool>>;
+
+/// What is inside between two surfaces of a cell's stack.
+struct Interval {
+  std::size_t cell = 0;
+  std::size_t low = 0, high = 0;  ///< places in the stack
+};
+
+struct PrismRoom {
+  std::vector<std::size_t> intervals;
+  double area = 0, seen = 0, floor = 0, ceiling = 0;
+};
+
+/// Holes of slabs: finds where inside goes on through a ceiling around which a slab with rooms on both sides was seen.
+class Slabs {
+ public:
+  Slabs(const PrismSpace& space, Inside& inside) : space_(space), inside_(inside) {}
+
+  void part() {
+    for (std::size_t s = 0; s < space_.surfaces.size(); ++s)
+      if (!space_.surfaces[s].up && is_level(space_.surfaces[s].surface.plane)) part(static_cast<std::int32_t>(s));
+  }
+
+ private:
+  static constexpr double thickest = 1.0;  // metres
+
+  /// The place of a surface in a cell's stack; −1: it is not in it.
+  int place_of(std::size_t cell, std::int32_t surface) const {
+    const auto& stack = space_.stacks[cell].surfaces;
+    const auto it = std::find(stack.begin(), stack.end(), surface);
+    return it == stack.end() ? -1 : static_cast<int>(it - stack.begin());
+  }
+  bool is_inside(std::size_t cell, std::size_t prism) const { return inside_[cell][prism]; }
+  /// The floor right over a ceiling that bounds a room below, if it bounds one above; −1: there is none.
+  std::int32_t floor_over(std::size_t cell, int ceiling) const {
+    const auto& stack = space_.stacks[cell].surfaces;
+    const auto k = static_cast<std::size_t>(ceiling);
+    if (!is_inside(cell, k) || is_inside(cell, k + 1)) return -1;
+    const Eigen::Vector2d middle = middle_of(space_.plan, space_.plan.cells[cell]);
+    for (std::size_t f = k + 1; f < stack.size(); ++f) {
+      if (space_.height(stack[f], middle) - space_.height(stack[k], middle) > thickest) return -1;
+      if (is_inside(cell, f + 1)) return stack[f];
+    }
+    return -1;
+  }
+
+  /// A surface over each cell, and where inside goes on through it.
+  struct Through {
+    std::vector<int> place;  ///< in the cell's stack; −1: it is not in it
+    std::vector<bool> hole;
+    std::vector<std::size_t> group;  ///< of holes: the cells that hang together have one number
+  };
+  /// What lies around a hole.
+  struct Rim {
+    double length = 0, slab = 0;
+    std::int32_t floor = -1;  ///< of the room above, on the slab
+  };
+
+  Through through(std::int32_t surface) const {
+    const std::size_t n = space_.stacks.size();
+    Through result{std::vector<int>(n), std::vector<bool>(n), std::vector<std::size_t>(n)};
+    for (std::size_t c = 0; c < n; ++c) {
+      result.place[c] = place_of(c, surface);
+      const auto k = static_cast<std::size_t>(std::max(result.place[c], 0));
+      result.hole[c] = result.place[c] >= 0 && is_inside(c, k) && is_inside(c, k + 1);
+    }
+    std::vector<std::size_t> rank(n), parent(n);
+    boost::disjoint_sets<std::size_t*, std::size_t*> sets(rank.data(), parent.data());
+    for (std::size_t c = 0; c < n; ++c) sets.make_set(c);
+    for (const auto& edge : space_.plan.edges) {
+      if (edge.left < 0 || edge.right < 0) continue;
+      const auto a = static_cast<std::size_t>(edge.left), b = static_cast<std::size_t>(edge.right);
+      if (result.hole[a] && result.hole[b]) sets.union_set(a, b);
+    }
+    for (std::size_t c = 0; c < n; ++c) result.group[c] = sets.find_set(c);
+    return result;
+  }
+
+  std::vector<Rim> rims(const Through& through) const {
+    std::vector<Rim> result(space_.stacks.size());
+    for (const auto& edge : space_.plan.edges) {
+      if (edge.left < 0 || edge.right < 0) continue;
+      auto a = static_cast<std::size_t>(edge.left), b = static_cast<std::size_t>(edge.right);
+      if (through.hole[a] == through.hole[b]) continue;
+      if (through.hole[b]) std::swap(a, b);
+      const double length = (space_.plan.vertices[edge.to] - space_.plan.vertices[edge.from]).norm();
+      Rim& rim = result[through.group[a]];
+      rim.length += length;
+      const std::int32_t over = through.place[b] >= 0 ? floor_over(b, through.place[b]) : -1;
+      if (over < 0) continue;
+      rim.slab += length;
+      rim.floor = over;
+    }
+    return result;
+  }
+
+  void part(std::int32_t surface) {
+    constexpr double least_slab = 1.0 / 3;  // of the rim
+    const Through holes = through(surface);
+    const std::vector<Rim> around = rims(holes);
+    for (std::size_t c = 0; c < space_.stacks.size(); ++c) {
+      const Rim& rim = around[holes.group[c]];
+      if (!holes.hole[c] || rim.floor < 0 || rim.slab < least_slab * rim.length) continue;
+      const int upper = place_of(c, rim.floor);
+      if (upper <= holes.place[c]) continue;
+      for (auto k = static_cast<std::size_t>(holes.place[c]) + 1; k <= static_cast<std::size_t>(upper); ++k)
+        inside_[c][k] = false;
+    }
+  }
+
+  const PrismSpace& space_;
+  Inside& inside_;
+};
+
+class PrismRoomFinder {
+ public:
+  PrismRoomFinder(const PrismSpace& space, WallCover& walls, Inside inside)
+      : space_(space), walls_(walls), inside_(std::move(inside)) {}
+
+  std::vector<StoreyCells> run(const RoomLimits& limits) {
+    Slabs(space_, inside_).part();
+    find_intervals();
+    find_contacts();
+    find_rooms();
+    std::erase_if(rooms_, [&](const PrismRoom& room) {
+      return room.area < limits.least_area || room.seen < limits.least_cover * room.area;
+    });
+    std::stable_sort(rooms_.begin(), rooms_.end(),
+                     [](const PrismRoom& a, const PrismRoom& b) { return a.area > b.area; });
+    return storeys();
+  }
+
+ private:
+  void find_intervals() {
+    constexpr double slab = 0.5;  // of the cell: a surface that was seen there parts what lies above and below it
+    of_cell_.resize(space_.stacks.size());
+    for (std::size_t c = 0; c < space_.stacks.size(); ++c) {
+      const PrismStack& stack = space_.stacks[c];
+      for (std::size_t k = 1; k < stack.surfaces.size(); ++k) {
+        if (!inside_[c][k]) continue;
+        const bool goes_on = k > 1 && inside_[c][k - 1] && stack.cover[k - 1] < slab && !of_cell_[c].empty();
+        if (goes_on) {
+          intervals_[of_cell_[c].back()].high = k;
+        } else {
+          of_cell_[c].push_back(intervals_.size());
+          intervals_.push_back({c, k - 1, k});
+        }
+      }
+    }
+  }
+
+  struct Contact {
+    std::size_t a = 0, b = 0;
+    double area = 0;
+  };
+
+  void find_contacts() {
+    constexpr double mostly = 0.5;
+    for (std::size_t e = 0; e < space_.plan.edges.size(); ++e) {
+      const CellEdge& edge = space_.plan.edges[e];
+      if (edge.left < 0 || edge.right < 0) continue;
+      const double length = (space_.plan.vertices[edge.to] - space_.plan.vertices[edge.from]).norm();
+      for (const auto a : of_cell_[static_cast<std::size_t>(edge.left)])
+        for (const auto b : of_cell_[static_cast<std::size_t>(edge.right)]) {
+          double area = 0, walled = 0;
+          for (std::size_t i = intervals_[a].low + 1; i <= intervals_[a].high; ++i)
+            for (std::size_t k = intervals_[b].low + 1; k <= intervals_[b].high; ++k) {
+              const double piece = length * common_height(space_, edge, i, k);
+              if (piece <= 0) continue;
+              area += piece;
+              walled += piece * std::max(walls_(e, 0, i), walls_(e, 1, k));
+            }
+          if (area > one_height * length && walled <= mostly * area) contacts_.push_back({a, b, area});
+        }
+    }
+    std::stable_sort(contacts_.begin(), contacts_.end(),
+                     [](const Contact& a, const Contact& b) { return a.area > b.area; });
+  }
+
+  void find_rooms() {
+    const std::size_t n = intervals_.size();
+    std::vector<std::size_t> of(n);
+    std::iota(of.begin(), of.end(), 0);
+    std::vector<std::vector<std::size_t>> members(n);
+    std::vector<std::set<std::size_t>> cells(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      members[i] = {i};
+      cells[i] = {intervals_[i].cell};
+    }
+    for (const Contact& contact : contacts_) {
+      std::size_t a = of[contact.a], b = of[contact.b];
+      if (a == b) continue;
+      if (members[a].size() < members[b].size()) std::swap(a, b);
+      if (std::any_of(cells[b].begin(), cells[b].end(), [&](std::size_t c) { return cells[a].count(c) != 0; }))
+        continue;
+      for (const auto i : members[b]) of[i] = a;
+      members[a].insert(members[a].end(), members[b].begin(), members[b].end());
+      cells[a].merge(cells[b]);
+      members[b].clear();
+    }
+    for (std::size_t a = 0; a < n; ++a) {
+      if (members[a].empty()) continue;
+      PrismRoom room;
+      std::sort(members[a].begin(), members[a].end());
+      for (const auto i : members[a]) add(i, room);
+      room.floor /= room.area;
+      room.ceiling /= room.area;
+      rooms_.push_back(std::move(room));
+    }
+  }
+
+  void add(std::size_t index, PrismRoom& room) const {
+    const Interval& interval = intervals_[index];
+    const PrismStack& stack = space_.stacks[interval.cell];
+    const LayoutCell& cell = space_.plan.cells[interval.cell];
+    const Eigen::Vector2d middle = middle_of(space_.plan, cell);
+    double seen = std::max(stack.cover[interval.low], stack.cover[interval.high]);
+    for (std::size_t k = interval.low + 1; k <= interval.high; ++k) seen = std::max(seen, stack.free[k]);
+    room.intervals.push_back(index);
+    room.area += cell.area;
+    room.seen += cell.area * std::min(1.0, seen);
+    room.floor += cell.area * space_.height(stack.surfaces[interval.low], middle);
+    room.ceiling += cell.area * space_.height(stack.surfaces[interval.high], middle);
+  }
+
+  /// Storeys by the rooms' floors, lowest first.
+  std::vector<StoreyCells> storeys() const {
+    constexpr double one_storey = 1.0;  // metres between the floors of neighbours in height
+    std::vector<std::size_t> order(rooms_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return rooms_[a].floor < rooms_[b].floor; });
+    std::vector<StoreyCells> result;
+    std::vector<std::size_t> waiting = order;
+    while (!waiting.empty()) {
+      std::vector<std::size_t> taken, later;
+      std::set<std::size_t> cells;
+      for (const auto r : waiting) {
+        const bool overlaps = std::any_of(rooms_[r].intervals.begin(), rooms_[r].intervals.end(),
+                                          [&](std::size_t i) { return cells.count(intervals_[i].cell) != 0; });
+        const bool high = !taken.empty() && rooms_[r].floor - rooms_[taken.back()].floor > one_storey;
+        if (overlaps || high || !later.empty()) {
+          later.push_back(r);
+          continue;
+        }
+        for (const auto i : rooms_[r].intervals) cells.insert(intervals_[i].cell);
+        taken.push_back(r);
+      }
+      result.push_back(storey(taken));
+      waiting = std::move(later);
+    }
+    for (std::size_t s = 0; s + 1 < result.size(); ++s)
+      result[s].high = result[s + 1].low = (result[s].ceiling_height + result[s + 1].floor_height) / 2;
+    return result;
+  }
+
+  StoreyCells storey(const std::vector<std::size_t>& rooms) const {
+    constexpr double far = 1e9;
+    StoreyCells result = space_.plan;
+    result.low = -far;
+    result.high = far;
+    double area = 0;
+    for (const auto r : rooms) {
+      area += rooms_[r].area;
+      result.floor_height += rooms_[r].area * rooms_[r].floor;
+      result.ceiling_height += rooms_[r].area * rooms_[r].ceiling;
+      for (const auto i : rooms_[r].intervals) {
+        const Interval& interval = intervals_[i];
+        LayoutCell& cell = result.cells[interval.cell];
+        cell.room = static_cast<std::int32_t>(r);
+        cell.floor = space_.stacks[interval.cell].surfaces[interval.low];
+        cell.ceiling = space_.stacks[interval.cell].surfaces[interval.high];
+      }
+    }
+    result.floor_height /= area;
+    result.ceiling_height /= area;
+    return result;
+  }
+
+  const PrismSpace& space_;
+  WallCover& walls_;
+  Inside inside_;
+  std::vector<Interval> intervals_;
+  std::vector<std::vector<std::size_t>> of_cell_;  // intervals, lowest first
+  std::vector<Contact> contacts_;
+  std::vector<PrismRoom> rooms_;
+};
+
+}  // namespace
+
+std::vector<StoreyCells> prism_rooms(const PrismSpace& space, WallCover& walls, std::vector<std::vector<bool>> inside,
+                                     const RoomLimits& limits) {
+  return PrismRoomFinder(space, walls, std::move(inside)).run(limits);
+}
+
+}  // namespace atrium::layout

@@ -1,0 +1,67 @@
+#include "modules/layout/surest.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include "graph/api/error.hpp"
+#include "modules/layout/confidence.hpp"
+#include "modules/layout/faces.hpp"
+
+namespace atrium::layout {
+namespace {
+
+struct Judgement {
+  double confidence = 0;  ///< 0: no building
+  double observed = 0;    ///< square metres of its faces that points lie on
+  std::size_t rooms = 0;
+};
+
+double area_of(const Building& building, const BuildingFace& face) {
+  const auto ring = [&](const std::vector<std::uint32_t>& corners) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      sum += building.vertices[corners[i]].cross(building.vertices[corners[(i + 1) % corners.size()]]);
+    return sum.norm() / 2;
+  };
+  double area = ring(face.outline);
+  for (const auto& hole : face.holes) area -= ring(hole);
+  return area;
+}
+
+Judgement judge(const Input<CellComplex>& cells, const Input<Structure>& structure, const Context& context) {
+  context.check_cancelled();
+  Context quiet;  // what is wrong with a proposal that is not taken interests nobody
+  Judgement result;
+  try {
+    auto building = input(Faces::run({cells, structure}, {}, quiet).building);
+    const Building sure = Confidence::run({building, structure, {}}, {}, quiet).building;
+    result.confidence = sure.confidence;
+    result.rooms = sure.rooms.size();
+    for (const auto& face : sure.faces) result.observed += face.observed * area_of(sure, face);
+  } catch (const Error&) {  // no room
+  }
+  return result;
+}
+
+}  // namespace
+
+Surest::Out Surest::run(const In& in, const Params& params, Context& context) {
+  if (in.structure->primitives != in.other_structure->primitives &&
+      in.structure->primitives->primitives.size() != in.other_structure->primitives->primitives.size())
+    throw Error("the two proposals are made from different planes", "wire both to the node that makes the planes");
+  const Judgement first = judge(in.cells, in.structure, context);
+  const Judgement other = judge(in.other_cells, in.other_structure, context);
+  const bool surer = other.confidence > first.confidence + params.margin;
+  const bool explains = other.confidence > 0 && other.confidence >= first.confidence - params.margin &&
+                        other.observed > (1 + params.explains) * first.observed;
+  const auto say = [](const Judgement& j) {
+    return fmt::format("{} rooms, confidence {:.2f}, {:.1f} m2 of faces observed", j.rooms, j.confidence, j.observed);
+  };
+  context.info(fmt::format("the {} proposal: first: {}; other: {}", surer || explains ? "other" : "first", say(first),
+                           say(other)));
+  if (surer || explains) return {in.other_cells, in.other_structure};
+  return {in.cells, in.structure};
+}
+
+}  // namespace atrium::layout

@@ -1,0 +1,48 @@
+#pragma once
+#include "graph/api/node.hpp"
+#include "modules/types/cell_complex.hpp"
+#include "modules/types/structure.hpp"
+
+namespace atrium::layout {
+
+/// Of two proposals of rooms for one scan hands on the one that the scan confirms better.
+///
+/// Both are made into rooms (layout.faces) and judged (layout.confidence, without openings). The other proposal is
+/// taken if its building is surer by more than `margin`; or if it is as sure and its faces have more observed area by
+/// more than `explains`: a vault that a flat ceiling cuts off. Else, and where neither is a building, the first one is
+/// handed on as it is.
+///
+/// Both must be made from the same planes. No random numbers. Errors: proposals of different planes. Cost: that of
+/// layout.faces and layout.confidence, twice.
+struct Surest {
+  static constexpr std::string_view type = "layout.surest";
+  static constexpr std::string_view summary = "Of two proposals of rooms hands on the surer one.";
+  struct In {
+    Input<CellComplex> cells;
+    Input<Structure> structure;
+    Input<CellComplex> other_cells;
+    Input<Structure> other_structure;
+  };
+  struct Out {
+    SharedOutput<CellComplex> cells;
+    SharedOutput<Structure> structure;
+  };
+  struct Params {
+    double margin = 0.01;
+    double explains = 0.05;
+  };
+  static constexpr auto inputs =
+      std::tuple{port(&In::cells, "cells", "Cells with room, floor and ceiling: the first proposal."),
+                 port(&In::structure, "structure", "Its primitives with class and storey."),
+                 port(&In::other_cells, "other_cells", "Those of the other proposal."),
+                 port(&In::other_structure, "other_structure", "Its primitives with class and storey.")};
+  static constexpr auto outputs = std::tuple{port(&Out::cells, "cells", "Those of the proposal that is taken."),
+                                             port(&Out::structure, "structure", "Its primitives.")};
+  static constexpr auto params =
+      std::tuple{param(&Params::margin, "margin", ratio, within(0, 1), "How much surer the other proposal must be."),
+                 param(&Params::explains, "explains", ratio, within(0, 10),
+                       "How much more observed area an equally sure one must have.")};
+  static Out run(const In& in, const Params& params, Context& context);
+};
+
+}  // namespace atrium::layout

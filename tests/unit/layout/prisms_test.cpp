@@ -1,0 +1,194 @@
+// Rooms that no cut into storeys tells: split levels, halls, galleries, leaning walls; and which proposal is taken.
+#include "modules/layout/prisms.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "modules/layout/surest.hpp"
+#include "tests/support/rooms.hpp"
+#include "tests/unit/layout/chain.hpp"
+
+namespace atrium::layout {
+namespace {
+
+using namespace atrium::test;
+using Scene = atrium::test::Rooms;
+
+struct Proposal {
+  Input<CellComplex> cells;
+  Input<Structure> structure;
+  std::shared_ptr<Warnings> warnings = std::make_shared<Warnings>();
+};
+
+Proposal prisms_of(const PlanePrimitives& planes) {
+  Proposal result;
+  Context context(1, result.warnings);
+  auto out = Prisms::run({input(planes)}, {}, context);
+  result.cells = input(std::move(out.cells));
+  result.structure = input(std::move(out.structure));
+  return result;
+}
+
+/// The building of a proposal, its rooms by falling area.
+Layout built(const Proposal& proposal) {
+  Layout layout;
+  layout.warnings = proposal.warnings;
+  Context context(1, layout.warnings);
+  layout.cells = *proposal.cells;
+  layout.structure = *proposal.structure;
+  layout.building = Faces::run({proposal.cells, proposal.structure}, {}, context).building;
+  layout.meshes = Mesh::run({input(layout.building), {}}, {}, context);
+  return layout;
+}
+
+void add_room(Scene& scene, double x0, double y0, double x1, double y1, double z0, double z1) {
+  scene.floor(x0, y0, x1, y1, z0).ceiling(x0, y0, x1, y1, z1);
+  scene.walls({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, 0, z0, z1);
+}
+
+void expect_rooms(const Layout& layout, const std::vector<std::pair<double, double>>& area_and_height) {
+  ASSERT_EQ(layout.building.rooms.size(), area_and_height.size());
+  for (std::size_t r = 0; r < area_and_height.size(); ++r) {
+    EXPECT_NEAR(layout.building.rooms[r].area, area_and_height[r].first, 1e-3 * area_and_height[r].first);
+    EXPECT_NEAR(layout.building.rooms[r].height, area_and_height[r].second, 2e-3);
+  }
+  EXPECT_EQ(flaw(layout), "");
+}
+
+TEST(Prisms, ARoomIsTheSameAsFromStoreys) {
+  const auto layout = built(prisms_of(l_room().planes()));
+  expect_rooms(layout, {{21, 2.5}});
+  EXPECT_EQ(layout.building.faces.size(), 8U);
+}
+
+TEST(Prisms, SplitLevelsAreRoomsOfTheirOwn) {
+  Scene scene;
+  add_room(scene, 0, 0, 5, 4, 0, 2.5);
+  add_room(scene, 0, 0, 5, 4.5, 2.8, 5.3);
+  add_room(scene, 5.12, 0, 9, 4, 1.4, 3.9);
+  const auto layout = built(prisms_of(scene.planes()));
+  expect_rooms(layout, {{22.5, 2.5}, {20, 2.5}, {15.52, 2.5}});
+  EXPECT_EQ(layout.building.storeys.size(), 3U);
+  EXPECT_NEAR(layout.building.storeys[1].elevation, 1.4, 1e-6);
+}
+
+TEST(Prisms, AHallBesideTwoStoreysIsOneRoom) {
+  Scene scene;
+  add_room(scene, 0, 0, 5, 4, 0, 2.5);
+  add_room(scene, 0, 0, 5, 4, 2.8, 5.3);
+  add_room(scene, 5.12, 0, 10, 5, 0, 5.3);
+  const auto layout = built(prisms_of(scene.planes()));
+  expect_rooms(layout, {{24.4, 5.3}, {20, 2.5}, {20, 2.5}});
+  EXPECT_EQ(layout.building.storeys.size(), 2U);
+}
+
+TEST(Prisms, TheHoleOfAStairPartsStoreys) {
+  // 8 x 5 m; the slab between 2.5 and 2.8 has a hole of 1 x 3 m at the wall x = 8.
+  const auto slab = [](const Eigen::Vector3d& p) { return p.x() < 7 || p.y() < 1 || p.y() > 4; };
+  Scene scene;
+  scene.floor(0, 0, 8, 5).ceiling(0, 0, 8, 5, 2.5, slab).floor(0, 0, 8, 5, 2.8, slab).ceiling(0, 0, 8, 5, 5.3);
+  scene.walls({{0, 0}, {8, 0}, {8, 5}, {0, 5}}, 0, 0, 5.3);
+  // The edge of the slab, seen from the hole.
+  scene.wall(7, 4, 7, 1, 2.5, 2.8).wall(7, 1, 8, 1, 2.5, 2.8).wall(8, 4, 7, 4, 2.5, 2.8);
+  const auto layout = built(prisms_of(scene.planes()));
+  expect_rooms(layout, {{40, 2.5}, {40, 2.5}});
+}
+
+TEST(Prisms, AWallThatLeansOutBoundsTheRoom) {
+  constexpr double lean = 0.67;
+  Scene scene;
+  scene.floor(0, 0, 5, 4).ceiling(0, 0, 5 + lean, 4);
+  scene.wall(0, 4, 0, 0);
+  const auto below = [&](const Eigen::Vector3d& p) { return p.x() <= 5 + lean * p.z() / 2.5; };
+  scene.add({0, 0, 0}, {5 + lean, 0, 0}, {0, 0, 2.5}, {0, 1, 0}, below);
+  scene.add({0, 4, 0}, {5 + lean, 0, 0}, {0, 0, 2.5}, {0, -1, 0}, below);
+  scene.add({5, 0, 0}, {0, 4, 0}, {lean, 0, 2.5}, {-2.5, 0, lean});
+  const auto layout = built(prisms_of(scene.planes()));
+  ASSERT_EQ(layout.building.rooms.size(), 1U);
+  EXPECT_NEAR(layout.building.rooms[0].volume, 4 * 2.5 * (5 + lean / 2), 0.02);
+  EXPECT_EQ(layout.building.faces.size(), 6U);
+  EXPECT_EQ(flaw(layout), "");
+}
+
+TEST(Prisms, FurnitureAndSmallSlopesAreNoLevels) {
+  Scene scene;
+  add_room(scene, 0, 0, 6, 5, 0, 2.6);
+  scene.floor(1, 1, 3, 3, 0.75).ceiling(1, 1, 3, 3, 0.7);        // a table
+  scene.add({0, 0, 2.2}, {6, 0, 0}, {0, 0.3, 0.4}, {0, 4, -3});  // a cornice
+  const auto layout = built(prisms_of(scene.planes()));
+  expect_rooms(layout, {{30, 2.6}});
+  EXPECT_EQ(layout.building.faces.size(), 6U);
+}
+
+TEST(Prisms, WithoutCeilingsThereIsNoRoom) {
+  Scene scene;
+  scene.floor(0, 0, 4, 3).walls({{0, 0}, {4, 0}, {4, 3}, {0, 3}});
+  const Proposal proposal = prisms_of(scene.planes());
+  EXPECT_TRUE(std::none_of(proposal.cells->storeys[0].cells.begin(), proposal.cells->storeys[0].cells.end(),
+                           [](const LayoutCell& cell) { return cell.room >= 0; }));
+}
+
+TEST(Prisms, OnlyWallsAreAnError) {
+  Scene scene;
+  scene.walls({{0, 0}, {4, 0}, {4, 3}, {0, 3}});
+  try {
+    prisms_of(scene.planes());
+    FAIL() << "no error";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("no plane is level"), std::string::npos);
+  }
+}
+
+class SurestOf : public testing::Test {
+ protected:
+  static Proposal storeys_of(const std::shared_ptr<const PlanePrimitives>& planes) {
+    Proposal result;
+    Context context(1, result.warnings);
+    result.structure = input(Storeys::run({planes}, {}, context).structure);
+    const auto cells = input(Partition::run({result.structure}, {}, context).cells);
+    const auto rooms = input(atrium::layout::Rooms::run({cells}, {}, context).cells);
+    result.cells = input(Heights::run({rooms}, {}, context).cells);
+    return result;
+  }
+  static Surest::Out surest(const Proposal& a, const Proposal& b) {
+    Context context;
+    return Surest::run({a.cells, a.structure, b.cells, b.structure}, {}, context);
+  }
+};
+
+TEST_F(SurestOf, TheFirstIsTakenWhereBothAreAsSure) {
+  const auto planes = input(l_room().planes());
+  const Proposal a = storeys_of(planes), b = prisms_of(*planes);
+  EXPECT_EQ(surest(a, b).cells, a.cells);
+  EXPECT_EQ(surest(b, a).cells, b.cells);
+}
+
+TEST_F(SurestOf, TheSurerIsTakenFromEitherPlace) {
+  Scene scene;  // split levels, of which storeys lose one
+  add_room(scene, 0, 0, 5, 4, 0, 2.5);
+  add_room(scene, 0, 0, 5, 4, 2.8, 5.3);
+  add_room(scene, 5.12, 0, 10, 4, 1.4, 3.9);
+  const auto planes = input(scene.planes());
+  const Proposal a = storeys_of(planes), b = prisms_of(*planes);
+  EXPECT_EQ(surest(a, b).cells, b.cells);
+  EXPECT_EQ(surest(b, a).structure, b.structure);
+}
+
+TEST_F(SurestOf, AProposalWithoutRoomsIsNotTaken) {
+  Scene scene;
+  scene.floor(0, 0, 4, 3).walls({{0, 0}, {4, 0}, {4, 3}, {0, 3}});
+  const auto planes = input(scene.planes());
+  const Proposal a = storeys_of(planes), b = prisms_of(*planes);
+  EXPECT_EQ(surest(a, b).cells, a.cells);
+  EXPECT_EQ(surest(b, a).cells, a.cells);
+}
+
+TEST_F(SurestOf, ProposalsOfDifferentPlanesAreAnError) {
+  const Proposal a = prisms_of(l_room().planes()), b = prisms_of(box_room().planes());
+  EXPECT_THROW(surest(a, b), Error);
+}
+
+}  // namespace
+}  // namespace atrium::layout
