@@ -15,6 +15,13 @@ struct Joint {
   Line on;
 };
 
+// Whether the end e is near enough to q for any joint: further away, none of joint()'s conditions can hold.
+bool in_reach(const WallPiece& p, const Eigen::Vector2d& e, const WallPiece& q, double corner_gap) {
+  const double reach = 2 * corner_gap + 0.5 * p.thickness + q.thickness * (0.5 + 1 / crossing);
+  return (e.array() >= q.from.array().min(q.to.array()) - reach).all() &&
+         (e.array() <= q.from.array().max(q.to.array()) + reach).all();
+}
+
 // How the end `e` of a piece (`outwards` away from it) may join q.
 Joint joint(const WallPiece& p, const Eigen::Vector2d& e, const Eigen::Vector2d& outwards, const WallPiece& q,
             double corner_gap) {
@@ -39,7 +46,7 @@ Joint best_joint(const std::vector<WallPiece>& pieces, std::size_t p, bool at_en
   const Eigen::Vector2d end = at_end ? piece.to : piece.from, outwards = at_end ? along : Eigen::Vector2d(-along);
   Joint best;
   for (std::size_t q = 0; q < pieces.size(); ++q) {
-    if (q == p) continue;
+    if (q == p || !in_reach(piece, end, pieces[q], corner_gap)) continue;
     const Joint found = joint(piece, end, outwards, pieces[q], corner_gap);
     // Of two walls in the same place, the one of two faces is known better.
     if (found.cost < best.cost || (found.cost == best.cost && found.reach > best.reach)) best = found;

@@ -17,6 +17,8 @@ class Check {
 
   void run() const {
     if (!building_.origin.allFinite()) throw Error("the building's origin has a number that is not finite");
+    if (!std::isfinite(building_.confidence))
+      throw Error("the building's confidence is not finite", "where nobody has judged it, it is -1");
     for (std::size_t i = 0; i < building_.vertices.size(); ++i) finite(building_.vertices[i].allFinite(), "vertex", i);
     for (std::size_t i = 0; i < building_.storeys.size(); ++i)
       finite(std::isfinite(building_.storeys[i].elevation + building_.storeys[i].height), "storey", i);
@@ -45,7 +47,7 @@ class Check {
   }
 
   void room(const BuildingRoom& room, std::size_t i) const {
-    finite(std::isfinite(room.area + room.height + room.volume), "room", i);
+    finite(std::isfinite(room.area + room.height + room.volume + room.confidence), "room", i);
     places(room.outline, "room", i);
     for (const auto& hole : room.holes) places(hole, "room", i);
     index(room.storey, 0, building_.storeys.size(), "room", i, "storey");

@@ -69,9 +69,40 @@ TEST_F(BuildingOutputs, ThePlanHasTheRoomsAndTheDoorsBetweenThem) {
 }
 
 TEST_F(BuildingOutputs, TheSceneAndItsModelAreThere) {
-  for (const auto* name : {"structure.ply", "shell.ply", "scene.ply", "scene_without_ceiling.ply", "scene.glb",
-                           "floorplan.svg", "floorplan.dxf"})
+  for (const auto* name :
+       {"structure.ply", "shell.ply", "scene.ply", "scene_without_ceiling.ply", "scene.glb", "floorplan.svg",
+        "floorplan.dxf", "building.ifc", "accuracy.csv", "accuracy.svg", "walls.csv"})
     EXPECT_GT(fs::file_size(*scratch / "made" / name), 1000U) << name;
+}
+
+TEST_F(BuildingOutputs, AnotherProgramFindsTheBuildingInTheIfcFile) {
+  const fs::path build = fs::path(ATRIUM_PROGRAM).parent_path().parent_path();
+  const auto result = run_process({ATRIUM_SOURCE_DIR "/tests/validate-ifc", (build / "tests/web-ifc").string(),
+                                   (*scratch / "made/building.ifc").string()});
+  if (result.exit_code == 77) GTEST_SKIP() << "web-ifc cannot be had: " << result.err;
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json report = json::parse(result.out), root = building();
+  EXPECT_TRUE(report["log"].empty()) << report["log"];
+  const auto openings = [&](const char* kind) {
+    return std::count_if(root["openings"].begin(), root["openings"].end(),
+                         [&](const json& opening) { return opening["kind"] == kind; });
+  };
+  EXPECT_EQ(report["counts"]["IFCBUILDINGSTOREY"], root["storeys"].size());
+  EXPECT_EQ(report["counts"]["IFCSPACE"], root["rooms"].size());
+  EXPECT_EQ(report["counts"]["IFCDOOR"], openings("door"));
+  EXPECT_EQ(report["counts"]["IFCWINDOW"], openings("window"));
+  EXPECT_EQ(report["counts"]["IFCOPENINGELEMENT"], root["openings"].size());
+  std::size_t space = 0, walls = 0;
+  for (const auto& element : report["elements"]) {
+    const double volume = element["volume"];
+    if (element["type"] == "IFCSPACE") {
+      EXPECT_NEAR(volume, root["rooms"][space++]["volume"], 0.005 * volume);
+    }
+    if (element["type"] != "IFCWALL") continue;
+    EXPECT_NEAR(volume, element["stated"].get<double>(), 0.005 * volume) << element["name"];
+    ++walls;
+  }
+  EXPECT_GE(walls, root["walls"].size());
 }
 
 TEST_F(BuildingOutputs, TheFileGivesTheSameMeshAndPlan) {

@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "modules/building/face_distances.hpp"
+
+namespace atrium::building {
+
+struct HeatMapFace {
+  const FaceDistances* distances = nullptr;
+  std::int32_t storey = 0;
+  std::string caption, figures;
+};
+
+/// An SVG page of faces as seen from their rooms, storey by storey, their squares coloured by the mean signed distance
+/// from −range (blue) to +range (red), with a scale.
+std::string heat_map(const std::vector<HeatMapFace>& faces, double cell, double range);
+
+}  // namespace atrium::building

@@ -1,0 +1,70 @@
+#include "modules/building/write_ifc.hpp"
+
+#include <fmt/format.h>
+
+#include "modules/building/ifc_context.hpp"
+#include "modules/building/step_reader.hpp"
+#include "modules/building/upright_building.hpp"
+#include "modules/types/building_rules.hpp"
+
+namespace atrium::building {
+namespace {
+
+std::string crs_of(const WriteIfc::In& in, const WriteIfc::Params& params, const Context& context) {
+  if (!params.crs.empty()) return crs_name(params.crs);
+  if (!in.scan || in.scan->crs.empty()) return {};
+  if (in.scan->unit == 1) return crs_name(in.scan->crs);
+  context.warn(fmt::format("the scan counts in units of {} m, its coordinate reference system too: it is not written",
+                           in.scan->unit));
+  return {};
+}
+
+/// How many openings no wall or slab was found for.
+std::size_t without_host(const Building& building, const Elements& elements) {
+  std::size_t hosted = 0;
+  for (const auto& wall : elements.walls)
+    for (const auto& hole : wall.holes) hosted += hole.main ? 1 : 0;
+  for (const auto& slab : elements.slabs) hosted += slab.openings.size();
+  return building.openings.size() - hosted;
+}
+
+void check_furniture(const Mesh& mesh) {
+  for (const auto& v : mesh.vertices)
+    if (!v.allFinite()) throw Error("a vertex of the furniture is not finite");
+  for (const auto& triangle : mesh.triangles)
+    for (const auto v : triangle)
+      if (v >= mesh.vertices.size()) throw Error(fmt::format("the furniture has no vertex {}", v));
+}
+
+}  // namespace
+
+WriteIfc::Out WriteIfc::run(const In& in, const Params& params, Context& context) {
+  check(*in.building);
+  const std::string crs = crs_of(in, params, context);
+  const UprightBuilding upright =
+      upright_building(*in.building, in.transform ? *in.transform : Transform{}, crs.empty());
+  if (upright.building.rooms.empty()) context.warn("the building has no rooms: the file has no elements");
+  const Elements elements =
+      elements_of(upright.building, {params.max_thickness, params.max_slab_thickness, params.assumed_thickness,
+                                     params.assumed_slab_thickness, params.max_column_width});
+  if (const std::size_t count = without_host(upright.building, elements); count > 0)
+    context.warn(fmt::format("{} of {} openings lie in no wall or slab: their doors and windows stand by themselves",
+                             count, upright.building.openings.size()));
+  Mesh furniture;
+  if (in.furniture) {
+    check_furniture(*in.furniture);
+    furniture = transformed(*in.furniture, upright.turn);
+  }
+  const auto target = context.output(params.path.path);
+  const std::string text =
+      ifc_text(upright.building, elements, in.furniture ? &furniture : nullptr,
+               {target.filename().string(), params.project, crs, params.id_space, params.boundaries});
+  check_ifc(read_step(text));
+  AtomicFile file(target);
+  file.write(text);
+  file.commit();
+  context.wrote(target);
+  return {};
+}
+
+}  // namespace atrium::building
