@@ -1,11 +1,11 @@
 #include "modules/refine/vertex_translation.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <numeric>
 #include <optional>
 
+#include "modules/geometry/linear_solve.hpp"
 #include "modules/geometry/plane_frame.hpp"
 #include "modules/geometry/polygon.hpp"
 #include "modules/refine/check.hpp"
@@ -26,7 +26,7 @@ std::optional<Line> intersection(const Plane& a, const Plane& b, double parallel
   if (length < parallel_tolerance || length == 0) return std::nullopt;
   Eigen::Matrix3d system;
   system << direction.transpose() / length, a.normal.transpose(), b.normal.transpose();
-  return Line{system.partialPivLu().solve(Eigen::Vector3d(0, -a.offset, -b.offset)), direction / length};
+  return Line{linear_solve(system, {0, -a.offset, -b.offset}), direction / length};
 }
 
 bool is_sound(const PlaneMesh& mesh) {

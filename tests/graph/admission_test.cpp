@@ -4,7 +4,7 @@
 
 #include "tests/graph/test_nodes.hpp"
 
-namespace atrium {
+namespace atrium::admission_test {
 namespace {
 
 constexpr std::uint64_t much = std::uint64_t{1} << 50U;  // more than the process has by far
@@ -58,4 +58,4 @@ TEST_F(AdmissionTest, WithoutALimitEverythingRuns) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::admission_test

@@ -13,7 +13,7 @@
 #include "graph/pipeline/pipeline.hpp"
 #include "tests/graph/test_nodes.hpp"
 
-namespace atrium {
+namespace atrium::bad_test {
 namespace {
 
 const std::filesystem::path folder = std::filesystem::path(ATRIUM_SOURCE_DIR) / "tests/bad";
@@ -76,4 +76,4 @@ TEST_P(BadFile, IsReportedAsExpected) {
 INSTANTIATE_TEST_SUITE_P(Files, BadFile, testing::ValuesIn(bad_files()), [](const auto& file) { return file.param; });
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::bad_test

@@ -14,7 +14,7 @@
 #include "graph/cache/upkeep.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium {
+namespace atrium::cache_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -208,4 +208,4 @@ TEST(CacheUpkeep, RemovesWhatWasNotUsedForLongest) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::cache_folder_test

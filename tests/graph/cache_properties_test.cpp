@@ -13,7 +13,7 @@
 #include "tests/support/pipeline_builder.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium {
+namespace atrium::cache_properties_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -234,4 +234,4 @@ RC_GTEST_PROP(CacheProperties, AFailureWithACacheSkipsItsDescendantsAndNothingEl
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::cache_properties_test

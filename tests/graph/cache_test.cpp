@@ -18,7 +18,7 @@
 #include "tests/graph/test_nodes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium {
+namespace atrium::cache_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -338,4 +338,4 @@ TEST(CacheNearest, IsTheRecordWithTheFewestDifferences) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::cache_test

@@ -11,7 +11,7 @@
 #include "tests/support/pipeline_builder.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium {
+namespace atrium::cached_run_test {
 namespace {
 
 using test::Call;
@@ -127,4 +127,4 @@ TEST(CachedRun, ANodeThatFailsWhenItRunsAgainIsSeenToHaveFailed) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::cached_run_test

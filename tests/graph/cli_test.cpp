@@ -10,7 +10,7 @@
 
 #include "tests/graph/folder.hpp"
 
-namespace atrium {
+namespace atrium::cli_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -176,4 +176,4 @@ TEST_F(CommandLine, AFullDiskUnderStdoutIsAFailure) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::cli_test

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-namespace atrium {
+namespace atrium::console_progress_test {
 namespace {
 
 class ConsoleProgressTest : public testing::Test {
@@ -131,4 +131,4 @@ TEST(ClockText, IsMinutesOrHours) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::console_progress_test

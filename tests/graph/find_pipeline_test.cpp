@@ -5,7 +5,7 @@
 
 #include "tests/graph/pipeline_file.hpp"
 
-namespace atrium {
+namespace atrium::find_pipeline_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -105,4 +105,4 @@ TEST_F(FindPipeline, ASettingsPipelineIsLookedForInTheWorkingFolderThenAmongTheI
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::find_pipeline_test

@@ -7,7 +7,7 @@
 #include "tests/support/process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium::test {
+namespace atrium::test::generate_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -149,4 +149,4 @@ TEST(ManualPage, IsSetWithoutWarnings) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::generate_test

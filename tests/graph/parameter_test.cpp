@@ -9,7 +9,7 @@
 #include "graph/api/error.hpp"
 #include "graph/pipeline/yaml_tree.hpp"
 
-namespace atrium {
+namespace atrium::parameter_test {
 namespace {
 
 /// The same cases in every run, unless RC_PARAMS asks for others.
@@ -232,4 +232,4 @@ TEST(Parameter, ListsSurviveBeingWritten) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::parameter_test

@@ -2,7 +2,7 @@
 
 #include "tests/graph/pipeline_file.hpp"
 
-namespace atrium {
+namespace atrium::pipeline_test {
 namespace {
 
 using test::Folder;
@@ -259,4 +259,4 @@ nodes:
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::pipeline_test

@@ -9,7 +9,7 @@
 #include "tests/support/pipeline_builder.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium {
+namespace atrium::png_stamp_test {
 namespace {
 
 using test::read_text;
@@ -116,4 +116,4 @@ TEST(PngStamp, APictureWithoutOneIsNoPipeline) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::png_stamp_test

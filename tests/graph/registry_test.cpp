@@ -7,7 +7,7 @@
 #include "tests/graph/folder.hpp"
 #include "tests/graph/test_nodes.hpp"
 
-namespace atrium {
+namespace atrium::registry_test {
 namespace {
 
 const std::filesystem::path plugins = std::filesystem::path(ATRIUM_PROGRAM).parent_path() / "../tests/plugins";
@@ -107,4 +107,4 @@ TEST(Registry, LooksInThePathOfTheEnvironment) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::registry_test

@@ -10,7 +10,7 @@
 #include "tests/support/pipeline_builder.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium {
+namespace atrium::run_folder_test {
 namespace {
 
 using nlohmann::json;
@@ -157,4 +157,4 @@ TEST(RunFolder, SaysThatItIsNotFinishedUntilItIs) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::run_folder_test

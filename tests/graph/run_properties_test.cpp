@@ -10,7 +10,7 @@
 #include "tests/graph/run_nodes.hpp"
 #include "tests/support/pipeline_builder.hpp"
 
-namespace atrium {
+namespace atrium::run_properties_test {
 namespace {
 
 using test::Counted;
@@ -153,4 +153,4 @@ RC_GTEST_PROP(RunProperties, CancelledAtAnyPointEveryNodeIsEitherDoneOrNot, ()) 
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::run_properties_test

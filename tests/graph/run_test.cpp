@@ -15,7 +15,7 @@
 #include "tests/support/pipeline_builder.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium {
+namespace atrium::run_test {
 namespace {
 
 using test::Call;
@@ -338,4 +338,4 @@ TEST(Run, ACircleIsAnError) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::run_test

@@ -1,7 +1,7 @@
 // Pipelines in pipelines: their inputs, defaults, variables, and nodes that are swapped for a file.
 #include "tests/graph/pipeline_file.hpp"
 
-namespace atrium {
+namespace atrium::sub_pipeline_test {
 namespace {
 
 class SubPipeline : public test::PipelineFile {};
@@ -113,4 +113,4 @@ outputs: {planes: found.planes}
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::sub_pipeline_test

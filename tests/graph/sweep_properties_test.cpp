@@ -13,7 +13,7 @@
 #include "tests/graph/folder.hpp"
 #include "tests/graph/run_nodes.hpp"
 
-namespace atrium {
+namespace atrium::sweep_properties_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -190,4 +190,4 @@ TEST(SweepProperties, GrowingASweepRunsNothingAgain) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::sweep_properties_test

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace atrium {
+namespace atrium::yaml_tree_test {
 namespace {
 
 std::string first_problem(const std::string& text) {
@@ -111,4 +111,4 @@ TEST(YamlTree, SaysWhyAFileCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::yaml_tree_test

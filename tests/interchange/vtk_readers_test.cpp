@@ -22,7 +22,7 @@
 #include "modules/types/palette.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium::io {
+namespace atrium::io::vtk_readers_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -163,4 +163,4 @@ TEST_F(ReadByVtk, PlyCloudsWithSensors) {
 }
 
 }  // namespace
-}  // namespace atrium::io
+}  // namespace atrium::io::vtk_readers_test

@@ -3,7 +3,7 @@
 
 #include "tests/pipelines/steps.hpp"
 
-namespace atrium::test {
+namespace atrium::test::ablations_test {
 namespace {
 
 TEST(Ablations, CanBePlanned) {
@@ -112,4 +112,4 @@ TEST(Examples, InBashAndPythonDriveASweepAndFindItsBestVariant) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::ablations_test

@@ -8,7 +8,7 @@
 
 #include "tests/pipelines/steps.hpp"
 
-namespace atrium::test {
+namespace atrium::test::atrium_test {
 namespace {
 
 using nlohmann::json;
@@ -165,4 +165,4 @@ TEST(Atrium, HasTheSameBytesWithAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::atrium_test

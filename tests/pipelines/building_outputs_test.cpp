@@ -6,7 +6,7 @@
 
 #include "tests/pipelines/steps.hpp"
 
-namespace atrium::test {
+namespace atrium::test::building_outputs_test {
 namespace {
 
 using nlohmann::json;
@@ -132,4 +132,4 @@ TEST_F(BuildingOutputs, TheFileGivesTheSameMeshAndPlan) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::building_outputs_test

@@ -6,7 +6,7 @@
 
 #include "tests/pipelines/cache_of_runs.hpp"
 
-namespace atrium::test {
+namespace atrium::test::cache_folder_test {
 namespace {
 
 class CacheFolderOfRuns : public CacheOfRuns {};
@@ -109,4 +109,4 @@ TEST_F(CacheFolderOfRuns, AFullDiskCostsTheCacheNotTheRun) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::cache_folder_test

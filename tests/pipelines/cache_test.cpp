@@ -8,7 +8,7 @@
 #include "graph/api/random.hpp"
 #include "tests/pipelines/cache_of_runs.hpp"
 
-namespace atrium::test {
+namespace atrium::test::cache_test {
 namespace {
 
 TEST_F(CacheOfRuns, ASecondRunComputesNothingAndShowsTheSame) {
@@ -321,4 +321,4 @@ TEST_F(CacheOfRuns, ASweepStaysWithinItsMemory) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::cache_test

@@ -3,7 +3,7 @@
 
 #include "tests/pipelines/steps.hpp"
 
-namespace atrium::test {
+namespace atrium::test::comparisons_test {
 namespace {
 
 std::vector<std::string> files_in(const fs::path& folder) {
@@ -80,4 +80,4 @@ outputs: {copy: faces.metrics, truth: truth.metrics}
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::comparisons_test

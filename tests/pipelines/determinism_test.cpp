@@ -6,7 +6,7 @@
 #include "tests/support/process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium::test {
+namespace atrium::test::determinism_test {
 namespace {
 
 using nlohmann::json;
@@ -41,4 +41,4 @@ outputs: {planes: planes.planes}
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::determinism_test

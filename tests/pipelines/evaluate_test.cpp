@@ -3,7 +3,7 @@
 
 #include "tests/pipelines/steps.hpp"
 
-namespace atrium::test {
+namespace atrium::test::evaluate_test {
 namespace {
 
 std::vector<std::string> files_of(const fs::path& run, const fs::path& scan, const fs::path& truth) {
@@ -50,4 +50,4 @@ TEST(Evaluate, TakesAHeadsetsLayoutForTruth) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::evaluate_test

@@ -9,7 +9,7 @@
 
 #include "tests/pipelines/sweep_folder_test.hpp"
 
-namespace atrium::test {
+namespace atrium::test::farm_test {
 namespace {
 
 /// Whether a condition comes true within so many seconds.
@@ -316,4 +316,4 @@ TEST_F(Farm, GatherTellsWhatIsMissingRunningLostAndCancelled) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::farm_test

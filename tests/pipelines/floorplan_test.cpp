@@ -6,7 +6,7 @@
 
 #include "tests/pipelines/steps.hpp"
 
-namespace atrium::test {
+namespace atrium::test::floorplan_test {
 namespace {
 
 using nlohmann::json;
@@ -144,4 +144,4 @@ TEST(FloorPlan, OfRealRoomsHasTheirArea) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::floorplan_test

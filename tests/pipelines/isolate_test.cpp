@@ -6,7 +6,7 @@
 
 #include "tests/pipelines/sweep_folder_test.hpp"
 
-namespace atrium::test {
+namespace atrium::test::isolate_test {
 namespace {
 
 class Isolated : public SweepFolderTest {
@@ -205,4 +205,4 @@ TEST_F(Isolated, AFullDiskIsSaidAndLeavesAFolderThatGoesOn) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::isolate_test

@@ -3,7 +3,7 @@
 
 #include "tests/pipelines/steps.hpp"
 
-namespace atrium::test {
+namespace atrium::test::named_pipeline_test {
 namespace {
 
 using nlohmann::json;
@@ -94,4 +94,4 @@ TEST_F(NamedPipeline, ASweepsBaseAndTheSweepItself) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::named_pipeline_test

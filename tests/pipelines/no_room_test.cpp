@@ -3,7 +3,7 @@
 
 #include "tests/pipelines/steps.hpp"
 
-namespace atrium::test {
+namespace atrium::test::no_room_test {
 namespace {
 
 constexpr const char* cropped = R"(atrium: 1
@@ -61,4 +61,4 @@ TEST_F(PartOfARoom, WhatStandsInItIsRefused) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::no_room_test

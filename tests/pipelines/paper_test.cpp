@@ -6,7 +6,7 @@
 
 #include "tests/pipelines/steps.hpp"
 
-namespace atrium::test {
+namespace atrium::test::paper_test {
 namespace {
 
 const std::vector<std::string> results{"structure.ply", "objects.ply",      "scene.ply", "scene_without_ceiling.ply",
@@ -240,4 +240,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return fs::path(test.param.name).stem().string(); });
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::paper_test

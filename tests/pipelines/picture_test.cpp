@@ -5,7 +5,7 @@
 #include "tests/support/process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium::test {
+namespace atrium::test::picture_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -190,4 +190,4 @@ TEST_F(Picture, TheSameViewTwiceOrAnotherFormatIsAnErrorWithoutAFile) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::picture_test

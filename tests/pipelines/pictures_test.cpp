@@ -3,7 +3,7 @@
 
 #include "tests/pipelines/steps.hpp"
 
-namespace atrium::test {
+namespace atrium::test::pictures_test {
 namespace {
 
 /// Width and height from a PNG's header; 0 and 0 if it is none.
@@ -59,4 +59,4 @@ TEST_F(Pictures, AColouredScanIsSeenFromWithinAndFromAbove) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::pictures_test

@@ -6,7 +6,7 @@
 
 #include "tests/pipelines/steps.hpp"
 
-namespace atrium::test {
+namespace atrium::test::quickstart_test {
 namespace {
 
 class Quickstart : public testing::Test {
@@ -81,4 +81,4 @@ TEST_F(Quickstart, BuildsThePluginsThatItsPipelinesName) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::quickstart_test

@@ -6,7 +6,7 @@
 #include "tests/support/process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium::test {
+namespace atrium::test::run_test {
 namespace {
 
 using nlohmann::json;
@@ -178,4 +178,4 @@ TEST_F(RunProgram, RunningTheResolvedFileGivesTheSameBytes) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::run_test

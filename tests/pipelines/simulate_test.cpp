@@ -6,7 +6,7 @@
 #include "tests/support/process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium::test {
+namespace atrium::test::simulate_test {
 namespace {
 
 class Simulate : public testing::TestWithParam<std::string> {
@@ -66,4 +66,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Simulate,
                          [](const auto& scene) { return scene.param; });
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::simulate_test

@@ -3,7 +3,7 @@
 
 #include "tests/pipelines/sweep_case.hpp"
 
-namespace atrium::test {
+namespace atrium::test::sweep_again_test {
 namespace {
 
 TEST_F(Sweep, WhatIsDoneIsNotDoneAgainAndGrowingRenamesNothing) {
@@ -122,4 +122,4 @@ TEST_F(Sweep, MeansAreOfWhatIsDone) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::sweep_again_test

@@ -1,7 +1,7 @@
 // `atrium sweep` as its users see it.
 #include "tests/pipelines/sweep_case.hpp"
 
-namespace atrium::test {
+namespace atrium::test::sweep_test {
 namespace {
 
 TEST_F(Sweep, RunsAllCombinationsAndPrintsTheirTable) {
@@ -253,4 +253,4 @@ outputs: {cloud: scan.cloud}
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::sweep_test

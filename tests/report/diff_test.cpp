@@ -7,7 +7,7 @@
 #include "tests/support/process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium::test {
+namespace atrium::test::diff_test {
 namespace {
 
 using nlohmann::json;
@@ -166,4 +166,4 @@ TEST(DiffParts, PicturesAreComparedPixelByPixel) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::diff_test

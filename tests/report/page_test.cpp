@@ -4,7 +4,7 @@
 #include "tests/support/process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium::test {
+namespace atrium::test::page_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,4 +31,4 @@ TEST(ReportPage, IsLeftOutOfTheBuildWhereEsbuildIsLacking) {
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::page_test

@@ -9,7 +9,7 @@
 #include "tests/support/process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium::test {
+namespace atrium::test::report_test {
 namespace {
 
 using nlohmann::json;
@@ -356,4 +356,4 @@ TEST(ReportParts, Base64IsThatOfTheStandard) {  // RFC 4648, section 10
 }
 
 }  // namespace
-}  // namespace atrium::test
+}  // namespace atrium::test::report_test

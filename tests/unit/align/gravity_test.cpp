@@ -7,7 +7,7 @@
 #include "tests/support/rooms.hpp"
 #include "tests/support/warnings.hpp"
 
-namespace atrium::align {
+namespace atrium::align::gravity_test {
 namespace {
 
 using Eigen::AngleAxisd;
@@ -173,4 +173,4 @@ TEST(AlignGravity, NoPlaneIsAnError) {
 }
 
 }  // namespace
-}  // namespace atrium::align
+}  // namespace atrium::align::gravity_test

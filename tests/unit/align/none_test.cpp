@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-namespace atrium::align {
+namespace atrium::align::none_test {
 namespace {
 
 TEST(AlignNone, HandsItsInputOnWithoutACopy) {
@@ -19,4 +19,4 @@ TEST(AlignNone, HandsItsInputOnWithoutACopy) {
 }
 
 }  // namespace
-}  // namespace atrium::align
+}  // namespace atrium::align::none_test

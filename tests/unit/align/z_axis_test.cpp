@@ -5,7 +5,7 @@
 #include "modules/align/xy_plane.hpp"
 #include "tests/support/rooms.hpp"
 
-namespace atrium::align {
+namespace atrium::align::z_axis_test {
 namespace {
 
 using Eigen::AngleAxisd;
@@ -185,4 +185,4 @@ TEST(AlignXyPlane, LeavesARoundRoomAndARoomWithoutWallsAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace atrium::align
+}  // namespace atrium::align::z_axis_test

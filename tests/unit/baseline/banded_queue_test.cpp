@@ -10,7 +10,7 @@
 
 #include "graph/api/random.hpp"
 
-namespace atrium::baseline {
+namespace atrium::baseline::banded_queue_test {
 namespace {
 
 struct Entry {
@@ -62,4 +62,4 @@ RC_GTEST_PROP(BandedQueue, TakesInTheOrderOfAHeap, (std::uint32_t seed)) {
 }
 
 }  // namespace
-}  // namespace atrium::baseline
+}  // namespace atrium::baseline::banded_queue_test

@@ -6,7 +6,7 @@
 #include "modules/baseline/vertex_clustering.hpp"
 #include "tests/unit/baseline/meshes.hpp"
 
-namespace atrium::baseline {
+namespace atrium::baseline::decimation_test {
 namespace {
 
 using Representative = VertexClustering::Representative;
@@ -187,4 +187,4 @@ TEST(Decimation, NothingGivesNothing) {
 }
 
 }  // namespace
-}  // namespace atrium::baseline
+}  // namespace atrium::baseline::decimation_test

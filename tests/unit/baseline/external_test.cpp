@@ -15,7 +15,7 @@
 #include "graph/api/helper_memory.hpp"
 #include "tests/unit/baseline/meshes.hpp"
 
-namespace atrium::baseline {
+namespace atrium::baseline::external_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -248,4 +248,4 @@ TEST_F(BaselineExternal, TheMemoryLimitHolds) {
 }
 
 }  // namespace
-}  // namespace atrium::baseline
+}  // namespace atrium::baseline::external_test

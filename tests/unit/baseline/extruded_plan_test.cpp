@@ -11,7 +11,7 @@
 #include "modules/geometry/ear_clipping.hpp"
 #include "tests/unit/baseline/meshes.hpp"
 
-namespace atrium::baseline {
+namespace atrium::baseline::extruded_plan_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -285,4 +285,4 @@ TEST(ExtrudedPlan, BadInputIsAnError) {
 }
 
 }  // namespace
-}  // namespace atrium::baseline
+}  // namespace atrium::baseline::extruded_plan_test

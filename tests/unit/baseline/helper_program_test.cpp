@@ -8,7 +8,7 @@
 
 #include "graph/api/error.hpp"
 
-namespace atrium::baseline {
+namespace atrium::baseline::helper_program_test {
 namespace {
 
 /// A helper that is a shell script beside the plugin, for as long as the test runs.
@@ -88,4 +88,4 @@ TEST(HelperProgram, SaysWhyThereIsNoReply) {
 }
 
 }  // namespace
-}  // namespace atrium::baseline
+}  // namespace atrium::baseline::helper_program_test

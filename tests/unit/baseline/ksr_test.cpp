@@ -11,11 +11,11 @@
 #include "tests/support/flat_cloud.hpp"
 #include "tests/unit/baseline/closed_surface.hpp"
 
-namespace atrium::baseline {
+namespace atrium::baseline::ksr_test {
 namespace {
 
 bool have_helper() { return std::filesystem::exists(helper_file("atrium-ksr")); }
-#define NEEDS_HELPER() \
+#define NEEDS_KSR() \
   if (!have_helper()) GTEST_SKIP() << "atrium-ksr is not built: needs -DATRIUM_CGAL=ON and CGAL 6.0"
 
 Cloud cloud_of(const std::vector<test::Face>& faces, std::size_t points) {
@@ -40,7 +40,7 @@ std::string problem(const Cloud& cloud, const Ksr::Params& params = {}) {
 }
 
 TEST(Ksr, ARoomHasTwelveTriangles) {
-  NEEDS_HELPER();
+  NEEDS_KSR();
   Context context;
   const Cloud cloud = cloud_of(test::box_faces({1, 2, 0}, {5, 5, 2.5}, true), 8000);
   const auto out = Ksr::run({input(cloud)}, {}, context);
@@ -51,7 +51,7 @@ TEST(Ksr, ARoomHasTwelveTriangles) {
 }
 
 TEST(Ksr, AnObjectLooksOutward) {
-  NEEDS_HELPER();
+  NEEDS_KSR();
   Context context;
   Ksr::Params params;
   params.indoors = false;
@@ -63,7 +63,7 @@ TEST(Ksr, AnObjectLooksOutward) {
 }
 
 TEST(Ksr, SaysThatThereIsNoPlane) {
-  NEEDS_HELPER();
+  NEEDS_KSR();
   Ksr::Params params;
   params.min_points = 100000;
   EXPECT_NE(problem(cloud_of(test::box_faces({0, 0, 0}, {2, 1, 1}, true), 2000), params).find("no plane was found"),
@@ -86,4 +86,4 @@ TEST(Ksr, SaysHowToGetTheHelper) {
 }
 
 }  // namespace
-}  // namespace atrium::baseline
+}  // namespace atrium::baseline::ksr_test

@@ -13,6 +13,7 @@
 #include "modules/geometry/triangle_tree.hpp"
 #include "modules/metric/validity.hpp"
 #include "modules/types/mesh.hpp"
+#include "tests/unit/baseline/closed_surface.hpp"
 
 namespace atrium::baseline {
 
@@ -68,11 +69,6 @@ inline Mesh sphere(const Vector3d& centre, double radius, int n) {
   return m;
 }
 
-inline double volume(const Mesh& mesh) {
-  double six = 0;
-  for (const auto& t : mesh.triangles) six += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]]));
-  return six / 6;
-}
 inline double area(const Mesh& mesh) {
   double twice = 0;
   for (const auto& t : mesh.triangles)

@@ -7,7 +7,7 @@
 #include "graph/api/random.hpp"
 #include "tests/unit/baseline/meshes.hpp"
 
-namespace atrium::baseline {
+namespace atrium::baseline::plane_quadric_test {
 namespace {
 
 PlaneQuadric::Out decimated(const Mesh& mesh, const PlaneQuadric::Params& params = {}) {
@@ -285,4 +285,4 @@ TEST(PlaneQuadric, BadInputIsAnErrorAndNothingGivesNothing) {
 }
 
 }  // namespace
-}  // namespace atrium::baseline
+}  // namespace atrium::baseline::plane_quadric_test

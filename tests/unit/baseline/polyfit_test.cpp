@@ -12,11 +12,11 @@
 #include "tests/support/flat_cloud.hpp"
 #include "tests/unit/baseline/closed_surface.hpp"
 
-namespace atrium::baseline {
+namespace atrium::baseline::polyfit_test {
 namespace {
 
 bool have_helper() { return std::filesystem::exists(helper_file("atrium-polyfit")); }
-#define NEEDS_HELPER() \
+#define NEEDS_POLYFIT() \
   if (!have_helper()) GTEST_SKIP() << "atrium-polyfit is not built: needs -DATRIUM_CGAL=ON"
 
 struct Host : ContextHost {
@@ -117,7 +117,7 @@ std::string problem(const PlanePrimitives& planes, const Polyfit::Params& params
 }
 
 TEST(Polyfit, ABoxHasTwelveTriangles) {
-  NEEDS_HELPER();
+  NEEDS_POLYFIT();
   const auto faces = test::box_faces({1, 2, 0}, {5, 5, 2.5}, true);
   const PlanePrimitives planes = planes_of(faces, 6000);
   const auto out = run(planes);
@@ -142,14 +142,14 @@ TEST(Polyfit, ABoxHasTwelveTriangles) {
 }
 
 TEST(Polyfit, ABoxSeenFromOutsideLooksOutward) {
-  NEEDS_HELPER();
+  NEEDS_POLYFIT();
   const auto out = run(planes_of(test::box_faces({0, 0, 0}, {2, 1, 1}, false), 3000));
   EXPECT_TRUE(is_closed(out.mesh));
   EXPECT_NEAR(volume(out.mesh), 2, 1e-4);
 }
 
 TEST(Polyfit, AnLShapedRoomKeepsItsInnerCorner) {
-  NEEDS_HELPER();
+  NEEDS_POLYFIT();
   const Room room{{{0, 0}, {6, 0}, {6, 3}, {3, 3}, {3, 5}, {0, 5}}, {{0, 0, 6, 3}, {0, 3, 3, 5}}};
   const auto out = run(planes_of(room));
   EXPECT_TRUE(is_closed(out.mesh));
@@ -179,7 +179,7 @@ Room comb(int teeth) {
 }
 
 TEST(Polyfit, TwentyPlanesAreSolved) {
-  NEEDS_HELPER();
+  NEEDS_POLYFIT();
   const PlanePrimitives planes = planes_of(comb(4));
   ASSERT_GE(planes.primitives.size(), 19U);
   const auto out = run(planes);
@@ -191,7 +191,7 @@ TEST(Polyfit, TwentyPlanesAreSolved) {
 }
 
 TEST(Polyfit, GivesTheSameBytesEveryTime) {
-  NEEDS_HELPER();
+  NEEDS_POLYFIT();
   const PlanePrimitives planes = planes_of(comb(3));
   const auto first = run(planes).mesh;
   for (int i = 0; i < 3; ++i) {
@@ -204,7 +204,7 @@ TEST(Polyfit, GivesTheSameBytesEveryTime) {
 }
 
 TEST(Polyfit, UsesTheLargestPlanesAndSaysSo) {
-  NEEDS_HELPER();
+  NEEDS_POLYFIT();
   PlanePrimitives planes = planes_of(test::box_faces({0, 0, 0}, {4, 3, 2.5}, true), 6000);
   PlanePrimitive small;
   small.inliers.assign(planes.primitives[0].inliers.begin(), planes.primitives[0].inliers.begin() + 5);
@@ -220,7 +220,7 @@ TEST(Polyfit, UsesTheLargestPlanesAndSaysSo) {
 }
 
 TEST(Polyfit, OpenSurfacesHaveNoAnswer) {
-  NEEDS_HELPER();
+  NEEDS_POLYFIT();
   // Four walls, neither floor nor ceiling: nothing can be closed.
   auto faces = test::box_faces({0, 0, 0}, {4, 3, 2.5}, true);
   faces.erase(faces.begin(), faces.begin() + 2);
@@ -233,21 +233,21 @@ TEST(Polyfit, OpenSurfacesHaveNoAnswer) {
 }
 
 TEST(Polyfit, SaysWhenTheTimeIsOver) {
-  NEEDS_HELPER();
+  NEEDS_POLYFIT();
   Polyfit::Params params;
   params.time_limit = 0.01;
   EXPECT_NE(problem(planes_of(comb(6)), params).find("time limit"), std::string::npos);
 }
 
 TEST(Polyfit, SaysWhenTheMemoryIsOver) {
-  NEEDS_HELPER();
+  NEEDS_POLYFIT();
   Polyfit::Params params;
   params.memory_limit = 1;  // below the bounds of the table: any program needs more
   EXPECT_NE(problem(planes_of(comb(6)), params).find("memory limit of 1 MiB"), std::string::npos);
 }
 
 TEST(Polyfit, EndsWithTheRun) {
-  NEEDS_HELPER();
+  NEEDS_POLYFIT();
   auto host = std::make_shared<Host>();
   host->cancel = true;
   EXPECT_THROW(run(planes_of(comb(6)), {}, host), Cancelled);
@@ -274,4 +274,4 @@ TEST(Polyfit, SaysHowToGetTheHelper) {
 }
 
 }  // namespace
-}  // namespace atrium::baseline
+}  // namespace atrium::baseline::polyfit_test

@@ -11,7 +11,7 @@
 #include "tests/support/box_building.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium::building {
+namespace atrium::building::accuracy_test {
 namespace {
 
 using test::BoxBuilding;
@@ -146,4 +146,4 @@ TEST_F(AccuracyTable, UnsoundInputIsRefusedAndLeavesNoFile) {
 }
 
 }  // namespace
-}  // namespace atrium::building
+}  // namespace atrium::building::accuracy_test

@@ -9,7 +9,7 @@
 #include "modules/building/profile.hpp"
 #include "modules/floorplan/regions.hpp"
 
-namespace atrium::building {
+namespace atrium::building::elements_test {
 namespace {
 
 using test::BoxBuilding;
@@ -236,4 +236,4 @@ TEST(Profile, FollowsTheLowerFootAndTheHigherHead) {
 }
 
 }  // namespace
-}  // namespace atrium::building
+}  // namespace atrium::building::elements_test

@@ -10,7 +10,7 @@
 #include "houses.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium::building {
+namespace atrium::building::schedule_test {
 namespace {
 
 using test::BoxBuilding;
@@ -133,4 +133,4 @@ TEST_F(Schedules, UnsoundBuildingsLeaveNoFile) {
 }
 
 }  // namespace
-}  // namespace atrium::building
+}  // namespace atrium::building::schedule_test

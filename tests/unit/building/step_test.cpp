@@ -7,7 +7,7 @@
 #include "modules/building/step_file.hpp"
 #include "modules/building/step_reader.hpp"
 
-namespace atrium::building {
+namespace atrium::building::step_test {
 namespace {
 
 std::string error_in(const std::string& data) {
@@ -76,4 +76,4 @@ TEST(Crs, IsNamedAsIfcWantsIt) {
 }
 
 }  // namespace
-}  // namespace atrium::building
+}  // namespace atrium::building::step_test

@@ -16,7 +16,7 @@
 #include "tests/support/process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium::building {
+namespace atrium::building::write_ifc_test {
 namespace {
 
 using nlohmann::json;
@@ -312,4 +312,4 @@ TEST_F(IfcFile, AnotherProgramFindsTheSameVolumes) {
 }
 
 }  // namespace
-}  // namespace atrium::building
+}  // namespace atrium::building::write_ifc_test

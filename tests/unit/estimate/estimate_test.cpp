@@ -5,7 +5,7 @@
 #include "modules/geometry/polygon.hpp"
 #include "tests/support/rooms.hpp"
 
-namespace atrium::estimate {
+namespace atrium::estimate::estimate_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -139,4 +139,4 @@ TEST(EstimateAdjacency, JoinsWhatIsNearerThanTheLimit) {
 }
 
 }  // namespace
-}  // namespace atrium::estimate
+}  // namespace atrium::estimate::estimate_test

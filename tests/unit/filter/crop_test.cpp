@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace atrium::filter {
+namespace atrium::filter::crop_test {
 namespace {
 
 Cloud cloud() {
@@ -40,4 +40,4 @@ TEST(Crop, EmptyCloudsAndBoxesOfNegativeWidth) {
 }
 
 }  // namespace
-}  // namespace atrium::filter
+}  // namespace atrium::filter::crop_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace atrium::filter {
+namespace atrium::filter::none_test {
 namespace {
 
 TEST(FilterNone, HandsItsInputOnWithoutACopy) {
@@ -12,4 +12,4 @@ TEST(FilterNone, HandsItsInputOnWithoutACopy) {
 }
 
 }  // namespace
-}  // namespace atrium::filter
+}  // namespace atrium::filter::none_test

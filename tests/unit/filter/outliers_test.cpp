@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
-namespace atrium::filter {
+namespace atrium::filter::outliers_test {
 namespace {
 
 Outliers::Out run(const Cloud& cloud, Outliers::Params params = {}) {
@@ -84,4 +84,4 @@ TEST(Outliers, SameBytesOnAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace atrium::filter
+}  // namespace atrium::filter::outliers_test

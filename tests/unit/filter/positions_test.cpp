@@ -5,7 +5,7 @@
 #include "tests/support/rooms.hpp"
 #include "tests/support/warnings.hpp"
 
-namespace atrium::filter {
+namespace atrium::filter::positions_test {
 namespace {
 
 using test::Rooms;
@@ -69,4 +69,4 @@ TEST(Positions, AnEmptyCloudStaysEmpty) {
 }
 
 }  // namespace
-}  // namespace atrium::filter
+}  // namespace atrium::filter::positions_test

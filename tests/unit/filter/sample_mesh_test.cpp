@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace atrium::filter {
+namespace atrium::filter::sample_mesh_test {
 namespace {
 
 TEST(SampleMesh, AsManyPointsAsVerticesUnlessTold) {
@@ -20,4 +20,4 @@ TEST(SampleMesh, AsManyPointsAsVerticesUnlessTold) {
 }
 
 }  // namespace
-}  // namespace atrium::filter
+}  // namespace atrium::filter::sample_mesh_test

@@ -7,7 +7,7 @@
 
 #include "graph/api/random.hpp"
 
-namespace atrium::filter {
+namespace atrium::filter::spacing_test {
 namespace {
 
 std::vector<double> by_brute_force(const std::vector<Eigen::Vector3f>& points, std::size_t k) {
@@ -89,4 +89,4 @@ TEST(Spacing, ASampleIsLikeTheWhole) {
 }
 
 }  // namespace
-}  // namespace atrium::filter
+}  // namespace atrium::filter::spacing_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-namespace atrium::filter {
+namespace atrium::filter::voxel_grid_test {
 namespace {
 
 Cloud run(const Cloud& cloud, double size) {
@@ -118,4 +118,4 @@ TEST(VoxelGrid, WildPointsAreKeptButATooWideCloudIsAnError) {
 }
 
 }  // namespace
-}  // namespace atrium::filter
+}  // namespace atrium::filter::voxel_grid_test

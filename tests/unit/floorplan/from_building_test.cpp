@@ -11,7 +11,7 @@
 #include "tests/support/box_building.hpp"
 #include "tests/unit/floorplan/buildings.hpp"
 
-namespace atrium::floorplan {
+namespace atrium::floorplan::from_building_test {
 namespace {
 
 FloorPlan drawn(const Building& building, OptionalInput<Transform> transform = {},
@@ -243,4 +243,4 @@ TEST(FromBuilding, BrokenBuildingsAreErrors) {
 }
 
 }  // namespace
-}  // namespace atrium::floorplan
+}  // namespace atrium::floorplan::from_building_test

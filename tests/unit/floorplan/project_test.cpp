@@ -7,7 +7,7 @@
 
 #include "tests/unit/floorplan/buildings.hpp"
 
-namespace atrium::floorplan {
+namespace atrium::floorplan::project_test {
 namespace {
 
 std::vector<PlanWall> thick(const PlanStorey& storey) {
@@ -388,4 +388,4 @@ TEST(Project, WrongInputIsAnError) {
 }
 
 }  // namespace
-}  // namespace atrium::floorplan
+}  // namespace atrium::floorplan::project_test

@@ -14,7 +14,7 @@
 #include "tests/support/process.hpp"
 #include "tests/unit/floorplan/buildings.hpp"
 
-namespace atrium::floorplan {
+namespace atrium::floorplan::write_dxf_test {
 namespace {
 
 using nlohmann::json;
@@ -293,4 +293,4 @@ TEST_F(Dxf, TextIsInItsCodePage) {
 }
 
 }  // namespace
-}  // namespace atrium::floorplan
+}  // namespace atrium::floorplan::write_dxf_test

@@ -6,7 +6,7 @@
 
 #include "tests/unit/floorplan/buildings.hpp"
 
-namespace atrium::floorplan {
+namespace atrium::floorplan::write_geojson_test {
 namespace {
 
 using nlohmann::json;
@@ -171,4 +171,4 @@ TEST_F(Geojson, AFolderThatCannotBeWrittenIsAnError) {
 }
 
 }  // namespace
-}  // namespace atrium::floorplan
+}  // namespace atrium::floorplan::write_geojson_test

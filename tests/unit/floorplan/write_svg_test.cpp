@@ -14,7 +14,7 @@
 #include "modules/floorplan/svg_canvas.hpp"
 #include "tests/unit/floorplan/buildings.hpp"
 
-namespace atrium::floorplan {
+namespace atrium::floorplan::write_svg_test {
 namespace {
 
 using boost::property_tree::ptree;
@@ -398,4 +398,4 @@ TEST_F(Svg, WhatIsDoubtfulIsMarked) {
 }
 
 }  // namespace
-}  // namespace atrium::floorplan
+}  // namespace atrium::floorplan::write_svg_test

@@ -6,7 +6,7 @@
 
 #include "graph/api/random.hpp"
 
-namespace atrium {
+namespace atrium::box_tree_test {
 namespace {
 
 using V = Eigen::Vector3d;
@@ -43,4 +43,4 @@ TEST(BoxTree, TouchingBoxesMeetAndPlacesMayCoincide) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::box_tree_test

@@ -12,7 +12,7 @@
 
 #include "graph/api/random.hpp"
 
-namespace atrium {
+namespace atrium::ear_clipping_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -182,4 +182,4 @@ TEST(EarClipping, BadInputHasAnAnswer) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::ear_clipping_test

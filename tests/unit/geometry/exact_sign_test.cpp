@@ -8,7 +8,7 @@
 
 #include "graph/api/random.hpp"
 
-namespace atrium {
+namespace atrium::exact_sign_test {
 namespace {
 
 using V2 = Eigen::Vector2d;
@@ -78,4 +78,4 @@ TEST(ExactSign, ChangesWithThePermutation) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::exact_sign_test

@@ -7,7 +7,7 @@
 
 #include "graph/api/random.hpp"
 
-namespace atrium {
+namespace atrium::grid_walk_test {
 namespace {
 
 std::vector<Eigen::Vector3f> scattered(std::size_t count, std::uint64_t seed) {
@@ -89,4 +89,4 @@ TEST(GridWalk, GridForRaysGrowsItsCellsInSparseScans) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::grid_walk_test

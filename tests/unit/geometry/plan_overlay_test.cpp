@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace atrium::overlay {
+namespace atrium::overlay::plan_overlay_test {
 namespace {
 
 PlanPolygon rectangle(double left, double bottom, double right, double top) {
@@ -49,4 +49,4 @@ TEST(PlanOverlay, TellsWhatIsValidAndCovered) {
 }
 
 }  // namespace
-}  // namespace atrium::overlay
+}  // namespace atrium::overlay::plan_overlay_test

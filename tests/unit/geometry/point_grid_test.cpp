@@ -9,7 +9,7 @@
 #include "graph/api/error.hpp"
 #include "graph/api/random.hpp"
 
-namespace atrium {
+namespace atrium::point_grid_test {
 namespace {
 
 std::vector<Eigen::Vector3f> random_points(std::size_t count, double width) {
@@ -108,4 +108,4 @@ TEST(PointGrid, TheOrderDoesNotDependOnThreads) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::point_grid_test

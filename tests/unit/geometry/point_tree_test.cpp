@@ -7,7 +7,7 @@
 
 #include "graph/api/random.hpp"
 
-namespace atrium {
+namespace atrium::point_tree_test {
 namespace {
 
 /// What a search must find, by looking at every point.
@@ -121,4 +121,4 @@ TEST(PointTree, TheOrderDoesNotDependOnThreads) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::point_tree_test

@@ -11,7 +11,7 @@
 #include "graph/api/value.hpp"
 #include "modules/geometry/point_tree.hpp"
 
-namespace atrium {
+namespace atrium::poisson_disk_test {
 namespace {
 
 /// A rectangle 4 m × 2 m at z = 1 in unequal triangles, one of them without area, with the origin far off.
@@ -82,4 +82,4 @@ TEST(PoissonDisk, MeshesWithoutSurfaceAreErrors) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::poisson_disk_test

@@ -10,7 +10,7 @@
 #include "modules/geometry/plane_frame.hpp"
 #include "modules/geometry/polygon_distance.hpp"
 
-namespace atrium {
+namespace atrium::polygon_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -221,4 +221,4 @@ TEST(SegmentDistance, OfParallelCollinearAndPointSegments) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::polygon_test

@@ -8,7 +8,7 @@
 
 #include "graph/api/random.hpp"
 
-namespace atrium {
+namespace atrium::radix_sort_test {
 namespace {
 
 std::vector<std::uint64_t> numbers(std::size_t count, std::uint64_t mask) {
@@ -48,4 +48,4 @@ INSTANTIATE_TEST_SUITE_P(Sizes, RadixSort,
                                                           std::pair{63U, 64U}, std::pair{5U, 5U})));
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::radix_sort_test

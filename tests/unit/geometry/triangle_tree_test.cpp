@@ -5,8 +5,9 @@
 #include <Eigen/Geometry>
 
 #include "graph/api/random.hpp"
+#include "modules/geometry/linear_solve.hpp"
 
-namespace atrium {
+namespace atrium::triangle_tree_test {
 namespace {
 
 struct Soup {
@@ -113,7 +114,7 @@ TEST_P(TriangleTreeSoup, RaysHitWhatBruteForceHits) {
       if (ab.cross(ac).norm() < 1e-9) continue;
       Eigen::Matrix3d m;
       m << ab, ac, -direction;
-      const Eigen::Vector3d x = m.partialPivLu().solve(from - s.vertices[a]);
+      const Eigen::Vector3d x = linear_solve(m, from - s.vertices[a]);
       if (x[0] >= 0 && x[1] >= 0 && x[0] + x[1] <= 1 && x[2] > 0) best = std::min(best, x[2]);
     }
     const auto hit = tree.cast(from, direction);
@@ -168,4 +169,4 @@ TEST(TriangleTree, SeamsLetNoRayThrough) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::triangle_tree_test

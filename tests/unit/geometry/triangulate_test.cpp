@@ -4,7 +4,7 @@
 
 #include <map>
 
-namespace atrium {
+namespace atrium::triangulate_test {
 namespace {
 
 using Ring = std::vector<Eigen::Vector2d>;
@@ -48,4 +48,4 @@ TEST(Triangulate, ConvexConcaveHolesAndSlants) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::triangulate_test

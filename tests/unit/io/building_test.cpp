@@ -9,7 +9,7 @@
 #include "tests/support/box_building.hpp"
 #include "tests/support/process.hpp"
 
-namespace atrium::io {
+namespace atrium::io::building_test {
 namespace {
 
 using nlohmann::json;
@@ -226,4 +226,4 @@ TEST_F(BuildingFile, ABuildingWithoutRoomsIsReadWithAWarning) {
 }
 
 }  // namespace
-}  // namespace atrium::io
+}  // namespace atrium::io::building_test

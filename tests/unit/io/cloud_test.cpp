@@ -2,7 +2,7 @@
 #include "modules/io/read_scan.hpp"
 #include "modules/io/write_cloud.hpp"
 
-namespace atrium::io {
+namespace atrium::io::cloud_test {
 namespace {
 
 class CloudFiles : public Files {
@@ -149,4 +149,4 @@ TEST_F(CloudFiles, AnEmptyCloudIsAValidFileWithAWarning) {
 }
 
 }  // namespace
-}  // namespace atrium::io
+}  // namespace atrium::io::cloud_test

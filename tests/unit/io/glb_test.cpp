@@ -15,7 +15,7 @@
 #include "modules/types/turn_between.hpp"
 #include "tests/support/process.hpp"
 
-namespace atrium::io {
+namespace atrium::io::glb_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -430,4 +430,4 @@ TEST_F(GlbFiles, YUpStaysAsItIsAndASmallTiltStays) {
 }
 
 }  // namespace
-}  // namespace atrium::io
+}  // namespace atrium::io::glb_test

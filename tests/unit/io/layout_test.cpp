@@ -10,7 +10,7 @@
 #include "modules/synth/scan.hpp"
 #include "modules/synth/two_storeys.hpp"
 
-namespace atrium::io {
+namespace atrium::io::layout_test {
 namespace {
 
 using V = Eigen::Vector3d;
@@ -220,4 +220,4 @@ INSTANTIATE_TEST_SUITE_P(Scans, QuestLayout,
                          [](const auto& test) { return std::string(std::get<0>(test.param)); });
 
 }  // namespace
-}  // namespace atrium::io
+}  // namespace atrium::io::layout_test

@@ -6,7 +6,7 @@
 #include "modules/io/read_scan.hpp"
 #include "modules/io/write_mesh.hpp"
 
-namespace atrium::io {
+namespace atrium::io::mesh_test {
 namespace {
 
 class MeshFiles : public Files {
@@ -196,4 +196,4 @@ TEST_F(MeshFiles, TrianglesOnBrokenVerticesAreDropped) {
 }
 
 }  // namespace
-}  // namespace atrium::io
+}  // namespace atrium::io::mesh_test

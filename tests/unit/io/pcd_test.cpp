@@ -4,7 +4,7 @@
 #include "modules/io/lzf.hpp"
 #include "modules/io/read_scan.hpp"
 
-namespace atrium::io {
+namespace atrium::io::pcd_test {
 namespace {
 
 /// LZF made of literal runs only, and one with a copy that overlaps itself: enough to write compressed files by hand.
@@ -159,4 +159,4 @@ TEST_F(Pcd, NamesWhatIsWrongAndWhere) {
 }
 
 }  // namespace
-}  // namespace atrium::io
+}  // namespace atrium::io::pcd_test

@@ -6,7 +6,7 @@
 #include "modules/io/read_scan.hpp"
 #include "modules/io/write_mesh.hpp"
 
-namespace atrium::io {
+namespace atrium::io::ply_test {
 namespace {
 
 class Ply : public Files {
@@ -302,4 +302,4 @@ TEST_F(Ply, RefusesABrokenMeshAndLeavesNoFile) {
 }
 
 }  // namespace
-}  // namespace atrium::io
+}  // namespace atrium::io::ply_test

@@ -8,7 +8,7 @@
 #include "modules/io/write_mesh.hpp"
 #include "modules/io/write_vg.hpp"
 
-namespace atrium::io {
+namespace atrium::io::robustness_test {
 namespace {
 
 /// Small files of every format. Whatever is done to them, a reader gives a value or throws Error: it never crashes,
@@ -141,4 +141,4 @@ TEST_F(Robustness, DamagedFilesAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace atrium::io
+}  // namespace atrium::io::robustness_test

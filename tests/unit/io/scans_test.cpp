@@ -3,7 +3,7 @@
 #include "modules/io/read_mesh.hpp"
 #include "modules/io/read_scan.hpp"
 
-namespace atrium::io {
+namespace atrium::io::scans_test {
 namespace {
 
 struct Scan {
@@ -49,4 +49,4 @@ INSTANTIATE_TEST_SUITE_P(Real, Scans,
                          });
 
 }  // namespace
-}  // namespace atrium::io
+}  // namespace atrium::io::scans_test

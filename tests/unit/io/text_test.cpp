@@ -3,7 +3,7 @@
 #include "files.hpp"
 #include "modules/io/read_scan.hpp"
 
-namespace atrium::io {
+namespace atrium::io::text_test {
 namespace {
 
 class Text : public Files {
@@ -117,4 +117,4 @@ TEST_F(Text, PiecesAreJoinedInOrder) {
 }
 
 }  // namespace
-}  // namespace atrium::io
+}  // namespace atrium::io::text_test

@@ -9,7 +9,7 @@
 #include "modules/io/write_cloud.hpp"
 #include "tests/support/rooms.hpp"
 
-namespace atrium::io {
+namespace atrium::io::unit_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -109,4 +109,4 @@ TEST_F(Units, ObjFilesUsuallyHaveYUp) {
 }
 
 }  // namespace
-}  // namespace atrium::io
+}  // namespace atrium::io::unit_test

@@ -3,7 +3,7 @@
 #include "modules/io/read_vg.hpp"
 #include "modules/io/write_vg.hpp"
 
-namespace atrium::io {
+namespace atrium::io::vg_test {
 namespace {
 
 class Vg : public Files {
@@ -191,4 +191,4 @@ TEST_F(Vg, WildBinaryCountsAreErrorsBeforeMemoryIsTaken) {
 }
 
 }  // namespace
-}  // namespace atrium::io
+}  // namespace atrium::io::vg_test

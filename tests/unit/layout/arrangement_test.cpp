@@ -13,7 +13,7 @@
 #include "graph/api/random.hpp"
 #include "modules/geometry/polygon.hpp"
 
-namespace atrium::layout {
+namespace atrium::layout::arrangement_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -82,7 +82,7 @@ struct Box {
     arrangement.cut(id, line, begin, end);
     return *this;
   }
-  std::string flaw() const { return layout::flaw(arrangement, lines, 100); }
+  std::string flaw() const { return arrangement_test::flaw(arrangement, lines, 100); }
 };
 
 TEST(Arrangement, AGridOfLines) {
@@ -211,4 +211,4 @@ TEST(Arrangement, LongEdgesOfManyLinesStayOnThem) {
 }
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::arrangement_test

@@ -8,7 +8,7 @@
 #include "tests/support/rooms.hpp"
 #include "tests/unit/layout/chain.hpp"
 
-namespace atrium::layout {
+namespace atrium::layout::as_scanned_test {
 namespace {
 
 using namespace atrium::test;
@@ -110,4 +110,4 @@ TEST(AsScanned, WhatStandsBeforeAGapHidesTheWall) {
 TEST(AsScanned, ARoundGapIsNoWindow) { EXPECT_TRUE(room_with_gap(false, true).building.openings.empty()); }
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::as_scanned_test

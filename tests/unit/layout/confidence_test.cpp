@@ -12,7 +12,7 @@
 #include "tests/support/rooms.hpp"
 #include "tests/unit/layout/chain.hpp"
 
-namespace atrium::layout {
+namespace atrium::layout::confidence_test {
 namespace {
 
 using namespace atrium::test;
@@ -268,4 +268,4 @@ TEST(Confidence, DoubtfulRoomsAreWarnedOfAndNamedWhereTheyAre) {
 }
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::confidence_test

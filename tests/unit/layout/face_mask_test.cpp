@@ -4,7 +4,7 @@
 
 #include "modules/layout/free_space.hpp"
 
-namespace atrium::layout {
+namespace atrium::layout::face_mask_test {
 namespace {
 
 using Eigen::AlignedBox2d;
@@ -128,4 +128,4 @@ TEST(FreeSpace, PointsThatAreAloneStopNothing) {
 }
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::face_mask_test

@@ -7,7 +7,7 @@
 #include "tests/unit/layout/cells.hpp"
 #include "tests/unit/layout/chain.hpp"
 
-namespace atrium::layout {
+namespace atrium::layout::faces_test {
 namespace {
 
 using namespace atrium::test;
@@ -104,4 +104,4 @@ TEST(Faces, CellsWithoutARoomAreRefused) {
 }
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::faces_test

@@ -9,7 +9,7 @@
 #include "graph/api/context.hpp"
 #include "tests/unit/layout/cells.hpp"
 
-namespace atrium::layout {
+namespace atrium::layout::heights_test {
 namespace {
 
 using namespace atrium::test;
@@ -219,4 +219,4 @@ TEST(Heights, WithoutRoomsNothingIsDecided) {
 }
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::heights_test

@@ -9,7 +9,7 @@
 
 #include "graph/api/random.hpp"
 
-namespace atrium::layout {
+namespace atrium::layout::min_cut_test {
 namespace {
 
 /// The same problem, solved by trying everything.
@@ -118,4 +118,4 @@ TEST(MinCut, AChainHoldsTogether) {
 }
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::min_cut_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/box_building.hpp"
 
-namespace atrium::layout {
+namespace atrium::layout::objects_test {
 namespace {
 
 using P = Eigen::Vector3f;
@@ -86,4 +86,4 @@ TEST(Objects, NothingComesOfNothing) {
 }
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::objects_test

@@ -9,7 +9,7 @@
 #include "tests/support/rooms.hpp"
 #include "tests/unit/layout/chain.hpp"
 
-namespace atrium::layout {
+namespace atrium::layout::openings_test {
 namespace {
 
 using Eigen::AlignedBox2d;
@@ -232,4 +232,4 @@ TEST(Openings, BrokenBuildingsAreErrors) {
 }
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::openings_test

@@ -10,7 +10,7 @@
 #include "tests/support/rooms.hpp"
 #include "tests/unit/layout/chain.hpp"
 
-namespace atrium::layout {
+namespace atrium::layout::prisms_test {
 namespace {
 
 using namespace atrium::test;
@@ -191,4 +191,4 @@ TEST_F(SurestOf, ProposalsOfDifferentPlanesAreAnError) {
 }
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::prisms_test

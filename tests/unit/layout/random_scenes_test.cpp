@@ -6,7 +6,7 @@
 #include "tests/support/rooms.hpp"
 #include "tests/unit/layout/chain.hpp"
 
-namespace atrium::layout {
+namespace atrium::layout::random_scenes_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -111,4 +111,4 @@ TEST_P(RandomScenes, HaveClosedRooms) {
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomScenes, testing::Range<std::uint64_t>(0, 20));
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::random_scenes_test

@@ -4,7 +4,7 @@
 #include "tests/support/rooms.hpp"
 #include "tests/unit/layout/chain.hpp"
 
-namespace atrium::layout {
+namespace atrium::layout::reality_test {
 namespace {
 
 using namespace atrium::test;
@@ -80,4 +80,4 @@ TEST(Reality, AColumnShowsItsFacesAndAStrayPairOfWallsIsNone) {
 }
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::reality_test

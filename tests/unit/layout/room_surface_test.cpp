@@ -9,7 +9,7 @@
 #include "modules/geometry/polygon.hpp"
 #include "tests/unit/layout/cells.hpp"
 
-namespace atrium::layout {
+namespace atrium::layout::room_surface_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -362,4 +362,4 @@ RC_GTEST_PROP(RoomSurface, IsSoundWhereCeilingsMeetFloors, (std::uint32_t seed))
 }
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::room_surface_test

@@ -11,7 +11,7 @@
 #include "tests/unit/layout/cells.hpp"
 #include "tests/unit/layout/chain.hpp"
 
-namespace atrium::layout {
+namespace atrium::layout::rooms_test {
 namespace {
 
 using namespace atrium::test;
@@ -248,4 +248,4 @@ TEST(Rooms, NichesTooSmallToBeOnesAreEvened) {
 }
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::rooms_test

@@ -8,7 +8,7 @@
 #include "tests/support/rooms.hpp"
 #include "tests/unit/layout/chain.hpp"
 
-namespace atrium::layout {
+namespace atrium::layout::scenes_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -360,4 +360,4 @@ TEST(Layout, TheOrderOfPrimitivesDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::scenes_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace atrium::layout {
+namespace atrium::layout::wall_pairs_test {
 namespace {
 
 using Corners = std::vector<Eigen::Vector2d>;
@@ -85,4 +85,4 @@ TEST(WallPairs, FacesTooFarApartAreNone) {
 }
 
 }  // namespace
-}  // namespace atrium::layout
+}  // namespace atrium::layout::wall_pairs_test

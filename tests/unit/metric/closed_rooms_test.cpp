@@ -12,7 +12,7 @@
 #include "modules/synth/round_room.hpp"
 #include "modules/synth/two_storeys.hpp"
 
-namespace atrium::metric {
+namespace atrium::metric::closed_rooms_test {
 namespace {
 
 using V = Eigen::Vector3d;
@@ -162,4 +162,4 @@ TEST(MetricClosedRooms, BadInput) {
 }
 
 }  // namespace
-}  // namespace atrium::metric
+}  // namespace atrium::metric::closed_rooms_test

@@ -10,7 +10,7 @@
 #include "meshes.hpp"
 #include "modules/metric/compactness.hpp"
 
-namespace atrium::metric {
+namespace atrium::metric::compactness_properties_test {
 namespace {
 
 using V = Eigen::Vector3d;
@@ -146,4 +146,4 @@ RC_GTEST_PROP(CompactnessProperties, DoubledFacesCountTwiceAndObjectsNever, (std
 }
 
 }  // namespace
-}  // namespace atrium::metric
+}  // namespace atrium::metric::compactness_properties_test

@@ -10,7 +10,7 @@
 #include "modules/synth/room.hpp"
 #include "modules/synth/round_room.hpp"
 
-namespace atrium::metric {
+namespace atrium::metric::compactness_test {
 namespace {
 
 using V = Eigen::Vector3d;
@@ -120,4 +120,4 @@ TEST(MetricCompactness, EmptyAndBadInput) {
 }
 
 }  // namespace
-}  // namespace atrium::metric
+}  // namespace atrium::metric::compactness_test

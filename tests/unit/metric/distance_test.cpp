@@ -11,7 +11,7 @@
 #include "modules/metric/mesh_samples.hpp"
 #include "modules/metric/point_distance.hpp"
 
-namespace atrium::metric {
+namespace atrium::metric::distance_test {
 namespace {
 
 using V = Eigen::Vector3d;
@@ -232,4 +232,4 @@ TEST(MeshSamples, StandForTheAreaEvenly) {
 }
 
 }  // namespace
-}  // namespace atrium::metric
+}  // namespace atrium::metric::distance_test

@@ -4,7 +4,7 @@
 
 #include "meshes.hpp"
 
-namespace atrium::metric {
+namespace atrium::metric::faces_test {
 namespace {
 
 Metrics faces(const Mesh& mesh) {
@@ -57,4 +57,4 @@ TEST(MetricFaces, PlainEmptyAndBrokenMeshes) {
 }
 
 }  // namespace
-}  // namespace atrium::metric
+}  // namespace atrium::metric::faces_test

@@ -10,7 +10,7 @@
 #include "modules/synth/office.hpp"
 #include "modules/synth/two_storeys.hpp"
 
-namespace atrium::metric {
+namespace atrium::metric::openings_test {
 namespace {
 
 using V = Eigen::Vector3d;
@@ -203,4 +203,4 @@ TEST(MetricOpenings, APassageIsADoor) {
 }
 
 }  // namespace
-}  // namespace atrium::metric
+}  // namespace atrium::metric::openings_test

@@ -11,7 +11,7 @@
 #include "meshes.hpp"
 #include "modules/metric/primitives.hpp"
 
-namespace atrium::metric {
+namespace atrium::metric::primitives_properties_test {
 namespace {
 
 using V = Eigen::Vector3d;
@@ -156,4 +156,4 @@ RC_GTEST_PROP(PrimitivesProperties, EveryRegionIsCountedOnceAtMost, (std::uint32
 }
 
 }  // namespace
-}  // namespace atrium::metric
+}  // namespace atrium::metric::primitives_properties_test

@@ -9,7 +9,7 @@
 #include "modules/synth/flat.hpp"
 #include "modules/synth/scan.hpp"
 
-namespace atrium::metric {
+namespace atrium::metric::primitives_test {
 namespace {
 
 using V = Eigen::Vector3d;
@@ -214,4 +214,4 @@ TEST(RegionOverlap, TheBestExplanationIsTakenOnce) {
 }
 
 }  // namespace
-}  // namespace atrium::metric
+}  // namespace atrium::metric::primitives_test

@@ -13,7 +13,7 @@
 #include "modules/synth/room.hpp"
 #include "modules/synth/two_storeys.hpp"
 
-namespace atrium::metric {
+namespace atrium::metric::rooms_test {
 namespace {
 
 using P = Eigen::Vector2d;
@@ -234,4 +234,4 @@ RC_GTEST_PROP(MetricRooms, RigidMotionsOfBothSidesChangeNothing, (std::uint32_t 
 }
 
 }  // namespace
-}  // namespace atrium::metric
+}  // namespace atrium::metric::rooms_test

@@ -10,7 +10,7 @@
 #include "graph/api/random.hpp"
 #include "solids.hpp"
 
-namespace atrium::metric {
+namespace atrium::metric::self_intersections_test {
 namespace {
 
 using V = Eigen::Vector3d;
@@ -229,4 +229,4 @@ TEST(SelfIntersections, SharedCornersCount) {
 }
 
 }  // namespace
-}  // namespace atrium::metric
+}  // namespace atrium::metric::self_intersections_test

@@ -11,7 +11,7 @@
 #include "meshes.hpp"
 #include "modules/metric/structure.hpp"
 
-namespace atrium::metric {
+namespace atrium::metric::structure_properties_test {
 namespace {
 
 using V = Eigen::Vector3d;
@@ -180,4 +180,4 @@ RC_GTEST_PROP(StructureProperties, RigidMotionsOfBothSidesChangeNothing, (std::u
 }
 
 }  // namespace
-}  // namespace atrium::metric
+}  // namespace atrium::metric::structure_properties_test

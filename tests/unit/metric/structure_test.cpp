@@ -12,7 +12,7 @@
 #include "modules/synth/room.hpp"
 #include "modules/synth/two_storeys.hpp"
 
-namespace atrium::metric {
+namespace atrium::metric::structure_test {
 namespace {
 
 using V = Eigen::Vector3d;
@@ -260,4 +260,4 @@ TEST(MetricStructure, BadInput) {
 }
 
 }  // namespace
-}  // namespace atrium::metric
+}  // namespace atrium::metric::structure_test

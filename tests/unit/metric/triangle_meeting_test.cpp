@@ -11,7 +11,7 @@
 
 #include "graph/api/random.hpp"
 
-namespace atrium::metric {
+namespace atrium::metric::triangle_meeting_test {
 namespace {
 
 using V = Eigen::Vector3d;
@@ -171,4 +171,4 @@ TEST(TriangleMeeting, StripsThatTakeTurnsCross) {
 }
 
 }  // namespace
-}  // namespace atrium::metric
+}  // namespace atrium::metric::triangle_meeting_test

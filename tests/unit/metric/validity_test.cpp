@@ -16,7 +16,7 @@
 #include "modules/synth/two_storeys.hpp"
 #include "solids.hpp"
 
-namespace atrium::metric {
+namespace atrium::metric::validity_test {
 namespace {
 
 using V = Eigen::Vector3d;
@@ -246,4 +246,4 @@ TEST(MetricValidity, SameBytesWithAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace atrium::metric
+}  // namespace atrium::metric::validity_test

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace atrium::metric {
+namespace atrium::metric::write_test {
 namespace {
 
 class Folder : public ContextHost {
@@ -111,4 +111,4 @@ TEST_F(MetricWrite, NamesThatExcludeEachOtherAreErrors) {
 TEST_F(MetricWrite, NoMetricsIsAnEmptyObject) { EXPECT_EQ(write({{}}), "{}\n"); }
 
 }  // namespace
-}  // namespace atrium::metric
+}  // namespace atrium::metric::write_test

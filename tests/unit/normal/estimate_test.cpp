@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace atrium::normal {
+namespace atrium::normal::estimate_test {
 namespace {
 
 constexpr Method all_methods[] = {Method::voxels, Method::radius, Method::neighbours};
@@ -144,4 +144,4 @@ TEST(NormalEstimate, WhateverThePointsNormalsAreUnit) {
 }
 
 }  // namespace
-}  // namespace atrium::normal
+}  // namespace atrium::normal::estimate_test

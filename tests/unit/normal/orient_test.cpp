@@ -7,7 +7,7 @@
 
 #include "tests/bench/box_flat.hpp"
 
-namespace atrium::normal {
+namespace atrium::normal::orient_test {
 namespace {
 
 Cloud run(const Cloud& cloud, Towards towards) {
@@ -124,4 +124,4 @@ TEST(NormalOrient, BadInputs) {
 }
 
 }  // namespace
-}  // namespace atrium::normal
+}  // namespace atrium::normal::orient_test

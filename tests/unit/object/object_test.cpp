@@ -8,7 +8,7 @@
 #include "modules/object/none.hpp"
 #include "modules/object/poisson.hpp"
 
-namespace atrium::object {
+namespace atrium::object::object_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -148,4 +148,4 @@ TEST(ObjectNone, IsEmptyAtTheCloudsOrigin) {
 }
 
 }  // namespace
-}  // namespace atrium::object
+}  // namespace atrium::object::object_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace atrium::plane {
+namespace atrium::plane::adopt_test {
 namespace {
 
 /// A floor at z = 0 over 2 m × 1 m of points 10 cm apart with residuals of 1 cm, and a wall at x = 0 above it.
@@ -74,4 +74,4 @@ TEST(Adopt, NothingToDoIsNoError) {
 }
 
 }  // namespace
-}  // namespace atrium::plane
+}  // namespace atrium::plane::adopt_test

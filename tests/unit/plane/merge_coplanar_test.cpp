@@ -10,7 +10,7 @@
 
 #include "tests/support/rooms.hpp"
 
-namespace atrium::plane {
+namespace atrium::plane::merge_coplanar_test {
 namespace {
 
 using atrium::test::Rooms;
@@ -164,4 +164,4 @@ RC_GTEST_PROP(MergeCoplanar, KeepsAllPoints, (std::uint32_t seed)) {
 }
 
 }  // namespace
-}  // namespace atrium::plane
+}  // namespace atrium::plane::merge_coplanar_test

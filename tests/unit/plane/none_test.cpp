@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace atrium::plane {
+namespace atrium::plane::none_test {
 namespace {
 
 TEST(PlaneNone, HandsItsInputOnWithoutACopy) {
@@ -12,4 +12,4 @@ TEST(PlaneNone, HandsItsInputOnWithoutACopy) {
 }
 
 }  // namespace
-}  // namespace atrium::plane
+}  // namespace atrium::plane::none_test

@@ -10,7 +10,7 @@
 
 #include "modules/plane/point_octree.hpp"
 
-namespace atrium::plane {
+namespace atrium::plane::plane_cells_test {
 namespace {
 
 /// Clumps of points near the plane z = 0, on both sides of the origin.
@@ -98,4 +98,4 @@ TEST(MortonOrder, IsTheSameOrderWithAFarPointAsWithout) {
 }
 
 }  // namespace
-}  // namespace atrium::plane
+}  // namespace atrium::plane::plane_cells_test

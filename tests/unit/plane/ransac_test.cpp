@@ -8,7 +8,7 @@
 
 #include "tests/support/flat_cloud.hpp"
 
-namespace atrium::plane {
+namespace atrium::plane::ransac_test {
 namespace {
 
 using test::box_faces;
@@ -204,4 +204,4 @@ TEST(PlaneRansac, SaysWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace atrium::plane
+}  // namespace atrium::plane::ransac_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/flat_cloud.hpp"
 
-namespace atrium::plane {
+namespace atrium::plane::region_growing_test {
 namespace {
 
 using test::box_faces;
@@ -136,4 +136,4 @@ TEST(PlaneRegionGrowing, SaysWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace atrium::plane
+}  // namespace atrium::plane::region_growing_test

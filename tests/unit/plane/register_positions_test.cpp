@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
-namespace atrium::plane {
+namespace atrium::plane::register_positions_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -111,4 +111,4 @@ TEST(RegisterPositions, SameBytesOnAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace atrium::plane
+}  // namespace atrium::plane::register_positions_test

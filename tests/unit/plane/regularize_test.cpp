@@ -9,7 +9,7 @@
 
 #include "tests/support/rooms.hpp"
 
-namespace atrium::plane {
+namespace atrium::plane::regularize_test {
 namespace {
 
 using atrium::test::Rooms;
@@ -153,4 +153,4 @@ RC_GTEST_PROP(Regularize, NeverMovesAPlaneOutOfItsReach, (std::uint32_t seed)) {
 }
 
 }  // namespace
-}  // namespace atrium::plane
+}  // namespace atrium::plane::regularize_test

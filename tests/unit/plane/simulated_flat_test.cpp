@@ -9,7 +9,7 @@
 #include "modules/synth/flat.hpp"
 #include "modules/synth/scan.hpp"
 
-namespace atrium::plane {
+namespace atrium::plane::simulated_flat_test {
 namespace {
 
 synth::Scan::Out simulated_scan(Context& context) {
@@ -72,4 +72,4 @@ TEST(PlanesOfASimulatedFlat, RegionGrowingFindsEveryStructuralFace) {
 }
 
 }  // namespace
-}  // namespace atrium::plane
+}  // namespace atrium::plane::simulated_flat_test

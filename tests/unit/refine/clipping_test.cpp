@@ -8,7 +8,7 @@
 #include "modules/segment/structure.hpp"
 #include "tests/support/rooms.hpp"
 
-namespace atrium::refine {
+namespace atrium::refine::clipping_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -185,4 +185,4 @@ TEST(MeshClipping, RefusesForeignGraphsAndStructures) {
 }
 
 }  // namespace
-}  // namespace atrium::refine
+}  // namespace atrium::refine::clipping_test

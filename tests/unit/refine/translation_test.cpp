@@ -7,7 +7,7 @@
 #include "modules/refine/vertex_translation.hpp"
 #include "tests/support/rooms.hpp"
 
-namespace atrium::refine {
+namespace atrium::refine::translation_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -145,4 +145,4 @@ TEST(RefineNone, HandsTheMeshesOn) {
 }
 
 }  // namespace
-}  // namespace atrium::refine
+}  // namespace atrium::refine::translation_test

@@ -12,7 +12,7 @@
 #include "modules/io/read_scan.hpp"
 #include "tests/bench/box_flat.hpp"
 
-namespace atrium::registration {
+namespace atrium::registration::gicp_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -146,4 +146,4 @@ TEST(Gicp, RealScansOfARoom) {
 }
 
 }  // namespace
-}  // namespace atrium::registration
+}  // namespace atrium::registration::gicp_test

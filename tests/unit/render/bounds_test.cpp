@@ -6,7 +6,7 @@
 #include "modules/types/palette.hpp"
 #include "tests/unit/render/pictures.hpp"
 
-namespace atrium::render {
+namespace atrium::render::bounds_test {
 namespace {
 
 Snapshot::Params small(const std::string& view) {
@@ -143,4 +143,4 @@ TEST(Legend, IsOnlyThereIfThereAreClasses) {
 }
 
 }  // namespace
-}  // namespace atrium::render
+}  // namespace atrium::render::bounds_test

@@ -8,7 +8,7 @@
 #include "modules/render/snapshot.hpp"
 #include "tests/unit/render/pictures.hpp"
 
-namespace atrium::render {
+namespace atrium::render::cameras_test {
 namespace {
 
 /// Points every 5 cm on a box's floor, ceiling and walls.
@@ -173,4 +173,4 @@ TEST(Snapshot, AdjacencyIsLinesBetweenTheMiddles) {
 }
 
 }  // namespace
-}  // namespace atrium::render
+}  // namespace atrium::render::cameras_test

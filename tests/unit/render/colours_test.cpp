@@ -8,7 +8,7 @@
 #include "modules/types/palette.hpp"
 #include "tests/unit/render/pictures.hpp"
 
-namespace atrium::render {
+namespace atrium::render::colours_test {
 namespace {
 
 TEST(ColourMap, RampsRunFromDarkToLightSoThatAnyEyeReadsThem) {
@@ -177,4 +177,4 @@ TEST(Textures, AnImageOfAnotherSizeThanItsPixelsIsAnError) {
 }
 
 }  // namespace
-}  // namespace atrium::render
+}  // namespace atrium::render::colours_test

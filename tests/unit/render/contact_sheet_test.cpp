@@ -8,7 +8,7 @@
 #include "modules/render/snapshot.hpp"
 #include "tests/unit/render/pictures.hpp"
 
-namespace atrium::render {
+namespace atrium::render::contact_sheet_test {
 namespace {
 
 Inputs<Pictures> grey(int count, int width = 200, int height = 100) {
@@ -109,4 +109,4 @@ TEST(ContactSheetNode, ManyAtATimeGetTheSameLetters) {
 }
 
 }  // namespace
-}  // namespace atrium::render
+}  // namespace atrium::render::contact_sheet_test

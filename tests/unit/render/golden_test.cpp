@@ -9,7 +9,7 @@
 #include "modules/synth/scan.hpp"
 #include "tests/unit/render/pictures.hpp"
 
-namespace atrium::render {
+namespace atrium::render::golden_test {
 namespace {
 
 class Golden : public testing::Test {
@@ -78,4 +78,4 @@ TEST_F(Golden, TruthFromInside) {
 }
 
 }  // namespace
-}  // namespace atrium::render
+}  // namespace atrium::render::golden_test

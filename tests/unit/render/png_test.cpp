@@ -7,7 +7,7 @@
 #include "graph/api/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium::render {
+namespace atrium::render::png_test {
 namespace {
 
 /// Writes 2 × 2 pixels with libpng's simplified interface.
@@ -116,4 +116,4 @@ TEST(Png, WhatIsNoPngOrNotThereIsAnError) {
 }
 
 }  // namespace
-}  // namespace atrium::render
+}  // namespace atrium::render::png_test

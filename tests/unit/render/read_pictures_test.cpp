@@ -5,7 +5,7 @@
 #include "modules/render/png.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium::render {
+namespace atrium::render::read_pictures_test {
 namespace {
 
 Picture grey(int width, int height, std::uint8_t value) {
@@ -50,4 +50,4 @@ TEST(ReadPicturesNode, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace atrium::render
+}  // namespace atrium::render::read_pictures_test

@@ -7,7 +7,7 @@
 #include "modules/types/palette.hpp"
 #include "tests/unit/render/pictures.hpp"
 
-namespace atrium::render {
+namespace atrium::render::snapshot_test {
 namespace {
 
 TEST(Snapshot, LooksIntoARoomFromAbove) {
@@ -95,4 +95,4 @@ TEST(Snapshot, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace atrium::render
+}  // namespace atrium::render::snapshot_test

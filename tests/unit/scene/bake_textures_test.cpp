@@ -11,7 +11,7 @@
 #include "graph/api/random.hpp"
 #include "modules/scene/pull_push.hpp"
 
-namespace atrium::scene {
+namespace atrium::scene::bake_textures_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -344,4 +344,4 @@ TEST(PullPush, KeepsWhatIsKnownAndFillsTheRest) {
 }
 
 }  // namespace
-}  // namespace atrium::scene
+}  // namespace atrium::scene::bake_textures_test

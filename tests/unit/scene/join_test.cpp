@@ -6,7 +6,7 @@
 
 #include "modules/types/palette.hpp"
 
-namespace atrium::scene {
+namespace atrium::scene::join_test {
 namespace {
 
 /// A floor, a ceiling over it that shares one corner, at a far origin.
@@ -92,4 +92,4 @@ TEST(Join, AStructureWithoutClassesIsAnError) {
 }
 
 }  // namespace
-}  // namespace atrium::scene
+}  // namespace atrium::scene::join_test

@@ -5,7 +5,7 @@
 #include "modules/geometry/polygon.hpp"
 #include "tests/support/rooms.hpp"
 
-namespace atrium::scene {
+namespace atrium::scene::merge_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -134,4 +134,4 @@ TEST(SceneMerge, OfNothingIsEmpty) {
 }
 
 }  // namespace
-}  // namespace atrium::scene
+}  // namespace atrium::scene::merge_test

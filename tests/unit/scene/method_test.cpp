@@ -13,7 +13,7 @@
 #include "modules/segment/structure.hpp"
 #include "tests/support/rooms.hpp"
 
-namespace atrium::scene {
+namespace atrium::scene::method_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -116,4 +116,4 @@ TEST(Method, SlantedRoofsAreCutToTheGables) {
 }
 
 }  // namespace
-}  // namespace atrium::scene
+}  // namespace atrium::scene::method_test

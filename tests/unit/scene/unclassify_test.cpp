@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace atrium::scene {
+namespace atrium::scene::unclassify_test {
 namespace {
 
 TEST(SceneUnclassify, KeepsTheSurfaceAndNothingThatNamesIt) {
@@ -24,4 +24,4 @@ TEST(SceneUnclassify, KeepsTheSurfaceAndNothingThatNamesIt) {
 }
 
 }  // namespace
-}  // namespace atrium::scene
+}  // namespace atrium::scene::unclassify_test

@@ -8,7 +8,7 @@
 
 #include "graph/api/random.hpp"
 
-namespace atrium::scene {
+namespace atrium::scene::view_cells_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -89,4 +89,4 @@ TEST(ViewCells, NoImages) {
 }
 
 }  // namespace
-}  // namespace atrium::scene
+}  // namespace atrium::scene::view_cells_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/rooms.hpp"
 
-namespace atrium::segment {
+namespace atrium::segment::structure_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -217,4 +217,4 @@ TEST(SegmentStructure, PrimitivesWithoutPointsAreObjects) {
 }
 
 }  // namespace
-}  // namespace atrium::segment
+}  // namespace atrium::segment::structure_test

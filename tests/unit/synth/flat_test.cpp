@@ -4,7 +4,7 @@
 
 #include "scene_checks.hpp"
 
-namespace atrium::synth {
+namespace atrium::synth::flat_test {
 namespace {
 
 SimulatedScene flat(const Flat::Params& params = {}, std::uint64_t seed = 1) {
@@ -72,4 +72,4 @@ TEST(SynthFlat, OpeningThatDoesNotFitIsAnError) {
 }
 
 }  // namespace
-}  // namespace atrium::synth
+}  // namespace atrium::synth::flat_test

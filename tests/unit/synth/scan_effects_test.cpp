@@ -13,7 +13,7 @@
 #include "modules/synth/scan.hpp"
 #include "modules/synth/two_storeys.hpp"
 
-namespace atrium::synth {
+namespace atrium::synth::scan_effects_test {
 namespace {
 
 using V = Eigen::Vector3d;
@@ -337,4 +337,4 @@ TEST(SynthHandHeldScan, PointsLieOnSurfaces) {
 }
 
 }  // namespace
-}  // namespace atrium::synth
+}  // namespace atrium::synth::scan_effects_test

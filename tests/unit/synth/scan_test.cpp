@@ -11,7 +11,7 @@
 #include "modules/synth/building.hpp"
 #include "modules/synth/flat.hpp"
 
-namespace atrium::synth {
+namespace atrium::synth::scan_test {
 namespace {
 
 Input<SimulatedScene> flat() {
@@ -283,4 +283,4 @@ TEST(SynthScan, BlindOrHomelessScannerIsAnError) {
 }
 
 }  // namespace
-}  // namespace atrium::synth
+}  // namespace atrium::synth::scan_test

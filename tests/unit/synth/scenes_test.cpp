@@ -13,7 +13,7 @@
 #include "modules/synth/two_storeys.hpp"
 #include "scene_checks.hpp"
 
-namespace atrium::synth {
+namespace atrium::synth::scenes_test {
 namespace {
 
 template <class Scene>
@@ -180,4 +180,4 @@ TEST(SynthAttic, HasTheVolumeOfItsSection) {
 }
 
 }  // namespace
-}  // namespace atrium::synth
+}  // namespace atrium::synth::scenes_test

@@ -12,7 +12,7 @@
 #include "modules/synth/round_room.hpp"
 #include "scene_checks.hpp"
 
-namespace atrium::synth {
+namespace atrium::synth::shapes_test {
 namespace {
 
 template <class Scene>
@@ -206,4 +206,4 @@ TEST(SynthPlan, ACrowdedRoomStillHasASecondPlace) {
 }
 
 }  // namespace
-}  // namespace atrium::synth
+}  // namespace atrium::synth::shapes_test

@@ -24,7 +24,7 @@
 #include "modules/synth/tall_building.hpp"
 #include "scene_checks.hpp"
 
-namespace atrium::synth {
+namespace atrium::synth::solids_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -272,4 +272,4 @@ TEST(SynthFlat, FittingsHideTheTruthAndKeepIt) {
 }
 
 }  // namespace
-}  // namespace atrium::synth
+}  // namespace atrium::synth::solids_test

@@ -6,7 +6,7 @@
 #include "modules/types/plane_primitives.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace atrium {
+namespace atrium::cloud_test {
 namespace {
 
 Cloud surveyed() {
@@ -39,4 +39,4 @@ TEST(Cloud, TheCacheKeepsTheReferenceSystem) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::cloud_test

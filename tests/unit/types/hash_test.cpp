@@ -6,7 +6,7 @@
 #include "modules/types/metrics.hpp"
 #include "modules/types/plane_meshes.hpp"
 
-namespace atrium {
+namespace atrium::hash_test {
 namespace {
 
 TEST(ContentHash, DependsOnEveryColumnAndOnNothingElse) {
@@ -52,4 +52,4 @@ TEST(ContentHash, EveryPortTypeIsHashable) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::hash_test

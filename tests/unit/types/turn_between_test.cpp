@@ -4,7 +4,7 @@
 
 #include "graph/api/random.hpp"
 
-namespace atrium {
+namespace atrium::turn_between_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -34,4 +34,4 @@ TEST(TurnBetween, EqualAndOppositeDirections) {
 }
 
 }  // namespace
-}  // namespace atrium
+}  // namespace atrium::turn_between_test

@@ -1,0 +1,1 @@
+list(APPEND alone flat_test.cpp)
