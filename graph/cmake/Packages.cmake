@@ -1,7 +1,20 @@
 # `cpack` in the build folder makes two Debian packages: atrium (the program, its plugins, pipelines and documentation) and
 # atrium-dev (what third parties build plugins with). Configure with -DCMAKE_INSTALL_PREFIX=/usr, so that libraries go where
 # Debian has them.
-set(ATRIUM_MAINTAINER "Atrium developers <maintainers@atrium.invalid>" CACHE STRING "Whom the packages name: NAME <MAIL>")
+# Whoever builds packages answers for them: they name the builder, as Debian's own tools do.
+if(NOT DEFINED ATRIUM_MAINTAINER)
+  set(name $ENV{DEBFULLNAME})
+  set(mail $ENV{DEBEMAIL})
+  if(NOT mail)
+    cmake_host_system_information(RESULT host QUERY FQDN)
+    execute_process(COMMAND id -un OUTPUT_VARIABLE user OUTPUT_STRIP_TRAILING_WHITESPACE)
+    set(mail ${user}@${host})
+  endif()
+  if(NOT name)
+    set(name "Local build of Atrium")
+  endif()
+  set(ATRIUM_MAINTAINER "${name} <${mail}>" CACHE STRING "Whom the packages name: NAME <MAIL>; from DEBFULLNAME and DEBEMAIL")
+endif()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME atrium)
 set(CPACK_PACKAGE_CONTACT ${ATRIUM_MAINTAINER})

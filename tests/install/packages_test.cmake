@@ -1,0 +1,67 @@
+# Makes the Debian packages, unpacks atrium into an empty folder, and lives there as its user does: finds a pipeline by its name,
+# simulates a scan and models it, draws a picture. Skipped where the tools that make packages are not installed.
+#   cmake -DBUILD=<build folder> -DWORK=<scratch folder> -P packages_test.cmake
+cmake_minimum_required(VERSION 3.25)
+set(root ${WORK}/root)
+set(program ${root}/usr/bin/atrium)
+foreach(tool dpkg-deb dpkg-shlibdeps file strip)
+  find_program(found_${tool} ${tool})
+  if(NOT found_${tool})
+    message("${tool} is lacking: share/install-packages --packages")
+    return()
+  endif()
+endforeach()
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK}/home)
+
+# call(<expected exit code> <text that stdout and stderr must hold> <command>...)
+function(call code text)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE result OUTPUT_VARIABLE output
+                  ERROR_VARIABLE output)
+  if(NOT result STREQUAL code OR NOT output MATCHES "${text}")
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "${command}\nreturned ${result}, expected ${code} with \"${text}\":\n${output}")
+  endif()
+endfunction()
+
+# Compressing takes longer than all else, and says nothing.
+call(0 "atrium-dev" ${CMAKE_CPACK_COMMAND} --config ${BUILD}/CPackConfig.cmake -B ${WORK} -D CPACK_DEBIAN_COMPRESSION_TYPE=none)
+file(GLOB package ${WORK}/atrium_*.deb)
+file(GLOB development ${WORK}/atrium-dev_*.deb)
+call(0 "" dpkg-deb -x ${package} ${root})
+call(0 "" dpkg-deb -x ${development} ${WORK}/development)
+
+# The fields that apt goes by. Plugins, not only the program, say what they need.
+foreach(library libtbb12 libpng16-16 libvtk9 libpcl-surface1 libegl-mesa0)
+  call(0 "${library}" dpkg-deb -f ${package} Depends)
+endforeach()
+call(0 "atrium \\(= [0-9.]+\\)" dpkg-deb -f ${development} Depends)
+call(0 "^[^<>]+ <[^<>@ ]+@[^<>@ ]+>\n$" dpkg-deb -f ${package} Maintainer)
+
+# Nothing is in both, and neither knows the build's folders.
+file(GLOB_RECURSE files LIST_DIRECTORIES false RELATIVE ${root} ${root}/*)
+file(GLOB_RECURSE headers LIST_DIRECTORIES false RELATIVE ${WORK}/development ${WORK}/development/*)
+foreach(file IN LISTS headers)
+  if(file IN_LIST files)
+    message(FATAL_ERROR "${file} is in both packages")
+  endif()
+endforeach()
+if(NOT "usr/include/atrium/graph/api/node.hpp" IN_LIST headers OR NOT "usr/share/man/man1/atrium.1.gz" IN_LIST files)
+  message(FATAL_ERROR "a header or the manual page is lacking")
+endif()
+execute_process(COMMAND grep -rlF ${BUILD}/ ${root} OUTPUT_VARIABLE found)
+if(found)
+  message(FATAL_ERROR "paths of the build are in files of the package:\n${found}")
+endif()
+
+set(as_user ${CMAKE_COMMAND} -E env --unset=ATRIUM_PLUGIN_PATH --unset=LD_LIBRARY_PATH HOME=${WORK}/home ATRIUM_CACHE=off)
+call(0 "layout.rooms" ${as_user} ${program} nodes)
+call(0 "" ${as_user} ${program} run simulate.yaml -s scene.type=synth.room -s points=40000 --out ${WORK}/scan)
+call(0 "" ${as_user} ${program} run atrium.yaml -s scan=${WORK}/scan/scan.ply --out ${WORK}/model)
+file(READ ${WORK}/model/building.json building)
+string(JSON rooms LENGTH ${building} rooms)
+if(NOT rooms EQUAL 1 OR NOT EXISTS ${WORK}/model/scene.glb)
+  message(FATAL_ERROR "${rooms} rooms, expected 1 and scene.glb")
+endif()
+call(0 "" ${as_user} ${program} run ${CMAKE_CURRENT_LIST_DIR}/picture.yaml --out ${WORK}/picture)
+file(REMOVE_RECURSE ${WORK})
