@@ -73,9 +73,16 @@ const std::vector<Target>& targets() {
   return all;
 }
 
+/// Names of files are compared with inputs, and what is compared guides the fuzzer: runs that are to be the same say
+/// where.
+static std::filesystem::path place() {
+  const char* said = std::getenv("ATRIUM_FUZZ_FOLDER");
+  return said != nullptr ? said : "/dev/shm/atrium-fuzz-" + std::to_string(::getpid());
+}
+
 const std::filesystem::path& folder() {
   static const struct Folder {
-    std::filesystem::path path = "/dev/shm/atrium-fuzz-" + std::to_string(::getpid());
+    std::filesystem::path path = place();
     Folder() { std::filesystem::create_directories(path); }
     ~Folder() { std::filesystem::remove_all(path); }
   } folder;
