@@ -119,6 +119,8 @@ class Assembly {
     face.holes.reserve(source.holes.size());
     for (const auto& hole : source.holes) face.holes.push_back(moved(hole, base));
     set_plane(storey, source.key, face);
+    constexpr double steep = 0.5;  // cosine: what bounds a room at this angle is a wall that leans
+    if (std::abs(face.plane.normal.z()) < steep) face.surface = SurfaceClass::wall;
     building_.faces.push_back(std::move(face));
   }
 

@@ -13,8 +13,9 @@ namespace atrium::layout {
 /// columns), and corners that are none in any of the faces around them are dropped from all of them. So faces meet edge
 /// to edge, and each room is a closed surface, 2-manifold unless the room touches itself along an upright edge.
 ///
-/// A face knows its primitive, if one lies on its plane and looks the same way; without one it is inferred. `observed`
-/// is the share of the face's squares that hold points of such primitives, `residual` their RMS distance.
+/// Floors and ceilings steeper than 60 degrees are walls that lean. A face knows its primitive, if one lies on its
+/// plane and looks the same way; without one it is inferred. `observed` is the share of the face's squares that hold
+/// points of such primitives, `residual` their RMS distance.
 ///
 /// Where the ceiling comes down to the floor the room ends. What is cut in two that way is two rooms; a room of which
 /// nothing is left is left out, with a warning. Rooms are named "room 1" … in their order. A

@@ -25,6 +25,15 @@ bool of_other_storeys(const WallLine& a, const WallLine& b) {
   return overlap < (piece ? -low_piece : common);
 }
 
+/// Whether a wall leans so far that an upright plane would miss it.
+bool leans(const PlanePrimitive& primitive, const Footprint& footprint) {
+  constexpr double least_sine = 0.05, least_rise = 1.5, least_lean = 0.12, least_area = 2;  // metres, m²
+  if (!footprint.upright || footprint.raster.empty()) return false;
+  const double slope = std::abs(primitive.plane.normal.z());
+  const double rise = footprint.raster.height * footprint.raster.pixel;
+  return slope > least_sine && rise > least_rise && slope * rise > least_lean && footprint.raster.area() > least_area;
+}
+
 /// Facades across the street: walls that stand more than 3 m from any floor or ceiling.
 bool is_far(const WallLine& wall, const std::vector<Eigen::AlignedBox2d>& boxes) {
   constexpr double far = 3;
@@ -95,7 +104,10 @@ Prisms::Out Prisms::run(const In& in, const Params& params, Context& context) {
   constexpr double noise_levels = 3;  // what the noise parts is one surface
   out.cells.noise = mean_residual(planes);
   const double gap = std::max(params.min_gap, noise_levels * out.cells.noise);
-  const std::vector<Footprint> seen = footprints(planes, out.cells.pixel, context);
+  std::vector<Footprint> seen = footprints(planes, out.cells.pixel, context);
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (leans(planes.primitives[i], seen[i]))
+      seen[i] = footprint(planes.primitives[i], *planes.cloud, out.cells.pixel, true);
   auto surfaces = level_surfaces(planes, seen, out.cells.pixel,
                                  {params.min_level_area, params.min_level_width, params.min_clearance, gap});
   if (surfaces.empty())

@@ -10,7 +10,8 @@ namespace atrium::layout {
 /// other.
 ///
 /// - Surfaces: every plane that is not upright and is no furniture may be a floor or a ceiling anywhere near it
-///   (level ones up to `reach` further than they were seen, slanted ones a metre, steep ones nowhere).
+///   (level ones up to `reach` further than they were seen, slanted ones a metre, steep ones nowhere). A wall that
+///   leans by 3 degrees or more, and 12 cm in all, is a steep one.
 /// - Cells: the plan is cut along the walls and where slanted surfaces cross, once for all storeys.
 /// - Prisms: the surfaces over a cell, by height, and what lies between each and the next.
 /// - Each prism is inside or outside, by one minimum cut. All terms are in square metres: what was seen through it,

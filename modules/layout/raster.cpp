@@ -12,11 +12,12 @@
 namespace atrium::layout {
 namespace {
 
-std::vector<Eigen::Vector2d> flattened(const PlanePrimitive& primitive, const Cloud& cloud, Footprint& out) {
+std::vector<Eigen::Vector2d> flattened(const PlanePrimitive& primitive, const Cloud& cloud, bool from_above,
+                                       Footprint& out) {
   std::vector<Eigen::Vector2d> points;
   points.reserve(primitive.inliers.size());
   const Eigen::Vector3d& n = primitive.plane.normal;
-  out.upright = is_upright(primitive.plane);
+  out.upright = !from_above && is_upright(primitive.plane);
   out.along = out.upright ? Eigen::Vector2d(-n.y(), n.x()).normalized() : Eigen::Vector2d::UnitX();
   for (const auto i : primitive.inliers) {
     const Eigen::Vector3d p = cloud.points[i].cast<double>();
@@ -106,9 +107,9 @@ Raster rasterize(const std::vector<Eigen::Vector2d>& points, double pixel) {
   return raster;
 }
 
-Footprint footprint(const PlanePrimitive& primitive, const Cloud& cloud, double pixel) {
+Footprint footprint(const PlanePrimitive& primitive, const Cloud& cloud, double pixel, bool from_above) {
   Footprint result;
-  const std::vector<Eigen::Vector2d> points = flattened(primitive, cloud, result);
+  const std::vector<Eigen::Vector2d> points = flattened(primitive, cloud, from_above, result);
   result.raster = rasterize(points, pixel);
   result.spacing = pixel * times_until_filled(result.raster);
   if (!result.upright) return result;

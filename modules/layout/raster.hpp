@@ -46,7 +46,8 @@ struct Footprint {
   double spacing = 0;  ///< edge of the squares that this surface fills, metres: the raster's, or up to four times it
   std::vector<double> tops;  ///< of walls, per column: the greatest z of its points; less than any z without points
 };
-Footprint footprint(const PlanePrimitive& primitive, const Cloud& cloud, double pixel);
+/// `from_above`: upright ones as well are seen from above (x, y).
+Footprint footprint(const PlanePrimitive& primitive, const Cloud& cloud, double pixel, bool from_above = false);
 std::vector<Footprint> footprints(const PlanePrimitives& planes, double pixel, const Context& context);
 
 /// Whether a plane is a wall here: within 10° of the vertical.

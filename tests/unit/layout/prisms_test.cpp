@@ -96,8 +96,10 @@ TEST(Prisms, TheHoleOfAStairPartsStoreys) {
   expect_rooms(layout, {{40, 2.5}, {40, 2.5}});
 }
 
-TEST(Prisms, AWallThatLeansOutBoundsTheRoom) {
-  constexpr double lean = 0.67;
+class LeaningWall : public testing::TestWithParam<double> {};
+
+TEST_P(LeaningWall, BoundsTheRoom) {
+  const double lean = GetParam();  // metres outwards at the ceiling
   Scene scene;
   scene.floor(0, 0, 5, 4).ceiling(0, 0, 5 + lean, 4);
   scene.wall(0, 4, 0, 0);
@@ -109,8 +111,12 @@ TEST(Prisms, AWallThatLeansOutBoundsTheRoom) {
   ASSERT_EQ(layout.building.rooms.size(), 1U);
   EXPECT_NEAR(layout.building.rooms[0].volume, 4 * 2.5 * (5 + lean / 2), 0.02);
   EXPECT_EQ(layout.building.faces.size(), 6U);
+  EXPECT_EQ(std::count_if(layout.building.faces.begin(), layout.building.faces.end(),
+                          [](const BuildingFace& face) { return face.surface == SurfaceClass::wall; }),
+            4);
   EXPECT_EQ(flaw(layout), "");
 }
+INSTANTIATE_TEST_SUITE_P(Outwards, LeaningWall, testing::Values(0.2, 0.67, 1.2));
 
 TEST(Prisms, FurnitureAndSmallSlopesAreNoLevels) {
   Scene scene;
