@@ -53,7 +53,7 @@ struct Accuracy {
     double cell = 0.10;
     double colour_range = 0.02;
     Band specified = Band::none;
-    std::int64_t max_points = 500'000;
+    std::int64_t max_points = 200'000;
   };
   static constexpr auto inputs =
       std::tuple{port(&In::building, "building", "Names, classes, storeys of the faces."),

@@ -21,12 +21,20 @@ struct Box {
   }
 };
 
-/// The range of heights that a room takes, seen from above by its polygon.
+/// The space that a room takes: its plan, and over which part of it what heights are.
 struct RoomSpace {
+  struct Level {
+    Region region;
+    double low = 0, high = 0;
+  };
   PlanPolygon polygon;
   double low = 0, high = 0;
   Box box{{}};
+  std::vector<Level> floors, ceilings;
 };
+/// Where the room has more than `least` of its height between two heights: of a room with a stairwell, over the storey
+/// above that is the stairwell only.
+Region occupied(const RoomSpace& room, double low, double high, double least);
 std::vector<RoomSpace> spaces_of(const Building& building);
 
 /// Step 1 and 2 (columns, wall stretches) with step 3's profiles, for all storeys; sets `lines` too.

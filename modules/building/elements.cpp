@@ -89,17 +89,53 @@ std::vector<PlanPolygon> footprint_part(const Wall& wall, const ProfilePart& par
   return floorplan::common({wall.footprint}, {{band, {}}});
 }
 
+namespace {
+
+RoomSpace::Level level_of(const Building& building, const BuildingFace& face) {
+  RoomSpace::Level level{{}, 1e300, -1e300};
+  PlanRing ring;
+  for (const auto v : face.outline) {
+    ring.emplace_back(building.vertices[v].head<2>());
+    level.low = std::min(level.low, building.vertices[v].z());
+    level.high = std::max(level.high, building.vertices[v].z());
+  }
+  level.region = floorplan::united({ring});
+  return level;
+}
+
+}  // namespace
+
+Region occupied(const RoomSpace& room, double low, double high, double least) {
+  if (std::min(high, room.high) - std::max(low, room.low) <= least) return {};
+  const auto below = [&](const RoomSpace::Level& floor) { return floor.low < high - least; };
+  const auto above = [&](const RoomSpace::Level& ceiling) { return ceiling.high > low + least; };
+  if (std::all_of(room.floors.begin(), room.floors.end(), below) &&
+      std::all_of(room.ceilings.begin(), room.ceilings.end(), above))
+    return {room.polygon};
+  Region under, over;
+  for (const auto& floor : room.floors)
+    if (below(floor)) under.insert(under.end(), floor.region.begin(), floor.region.end());
+  for (const auto& ceiling : room.ceilings)
+    if (above(ceiling)) over.insert(over.end(), ceiling.region.begin(), ceiling.region.end());
+  return floorplan::common(floorplan::common({room.polygon}, floorplan::joined(under, {})),
+                           floorplan::joined(over, {}));
+}
+
 std::vector<RoomSpace> spaces_of(const Building& building) {
   std::vector<RoomSpace> result;
   for (const auto& room : building.rooms) {
     RoomSpace space;
     space.low = 1e300;
     space.high = -1e300;
-    for (const auto f : room.faces)
-      for (const auto v : building.faces[static_cast<std::size_t>(f)].outline) {
+    for (const auto f : room.faces) {
+      const BuildingFace& face = building.faces[static_cast<std::size_t>(f)];
+      for (const auto v : face.outline) {
         space.low = std::min(space.low, building.vertices[v].z());
         space.high = std::max(space.high, building.vertices[v].z());
       }
+      if (face.surface == SurfaceClass::floor) space.floors.push_back(level_of(building, face));
+      if (face.surface == SurfaceClass::ceiling) space.ceilings.push_back(level_of(building, face));
+    }
     std::vector<PlanRing> holes;
     PlanRing outline;
     for (const auto& p : room.outline) outline.emplace_back(p.head<2>());

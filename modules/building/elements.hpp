@@ -98,6 +98,7 @@ struct FaceLine {
   std::int32_t face = -1;
   Eigen::Vector2d normal = Eigen::Vector2d::UnitY();  ///< into the room
   double offset = 0;                                  ///< normal · p of its points
+  double low = 0, high = 0;                           ///< heights of its corners
   std::vector<Backing> backing;
 
   Eigen::Vector2d along() const { return {normal.y(), -normal.x()}; }

@@ -84,6 +84,7 @@ std::string scale_at(double x, double y, double range) {
 
 std::string heat_map(const std::vector<HeatMapFace>& faces, double cell, double range) {
   std::vector<const HeatMapFace*> order;
+  order.reserve(faces.size());
   for (const auto& face : faces) order.push_back(&face);
   std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) { return a->storey < b->storey; });
   std::string body = label(gap, 28, "Mean signed distance of the scan's points from the model", " font-size=\"18\"");

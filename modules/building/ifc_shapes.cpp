@@ -26,12 +26,14 @@ const std::map<std::string_view, Paint>& paints() {
 
 StepValue indices(const std::vector<std::uint32_t>& ring) {
   std::vector<StepValue> values;
+  values.reserve(ring.size());
   for (const auto v : ring) values.push_back(whole(v + 1));
   return list(values);
 }
 
 StepValue places(const std::vector<Eigen::Vector3d>& points) {
   std::vector<StepValue> values;
+  values.reserve(points.size());
   for (const auto& p : points) values.push_back(reals({p.x(), p.y(), p.z()}));
   return list(values);
 }
@@ -112,6 +114,7 @@ StepRef IfcShapes::triangles(const std::vector<Eigen::Vector3d>& points,
                              const std::vector<std::array<std::uint32_t, 3>>& corners, bool closed,
                              std::string_view colour) {
   std::vector<StepValue> values;
+  values.reserve(corners.size());
   for (const auto& [a, b, c] : corners) values.push_back(indices({a, b, c}));
   const StepRef list_of_points = file_.add("IFCCARTESIANPOINTLIST3D", {places(points)});
   const StepRef solid =

@@ -22,6 +22,7 @@ std::string yes(bool value) { return value ? "yes" : "no"; }
 double area_of(const Building& building, const BuildingFace& face) {
   const auto ring_area = [&](const std::vector<std::uint32_t>& ring) {
     std::vector<Eigen::Vector3d> places;
+    places.reserve(ring.size());
     for (const auto v : ring) places.push_back(building.vertices[v]);
     return vector_area(places).norm();
   };

@@ -121,6 +121,7 @@ bool ends_at(const Footing& footing, const Plate& plate) {
 void add_footings(std::vector<Plate>& plates, const std::vector<Footing>& footings) {
   std::vector<bool> under(footings.size(), false), over(footings.size(), false);
   std::vector<Box> boxes;
+  boxes.reserve(footings.size());
   for (const auto& footing : footings) boxes.emplace_back(footing.polygon.outline);
   for (auto& plate : plates) {
     std::vector<bool>& done = plate.surface == SurfaceClass::floor ? under : over;
@@ -241,8 +242,10 @@ class SlabMaker {
   void add(Slab slab, const Region& region) {
     Region taken;
     if (slab.level()) {
-      for (const auto& room : rooms_)
-        if (within(slab, room.polygon, room.low, room.high)) taken.push_back(room.polygon);
+      for (const auto& room : rooms_) {
+        const Region own = occupied(room, slab.bottom.z(), slab.bottom.z() + slab.thickness, on_slab);
+        taken.insert(taken.end(), own.begin(), own.end());
+      }
       for (const auto& wall : elements_.walls)
         if (within(slab, wall.footprint, wall.low(), wall.high())) taken.push_back(wall.footprint);
       for (const auto& other : elements_.slabs)

@@ -85,6 +85,7 @@ StepValue refs(const std::vector<StepRef>& values) { return list({values.begin()
 
 StepValue reals(const std::vector<double>& values) {
   std::vector<StepValue> texts;
+  texts.reserve(values.size());
   for (const double value : values) texts.push_back(real(value));
   return list(texts);
 }

@@ -8,9 +8,10 @@
 namespace atrium::building {
 namespace {
 
-constexpr double just_behind = 0.001;  // metres
-constexpr double on_ring = 0.001;      // metres
-constexpr double least_part = 0.02;    // metres of an opening: less of it in a wall is none
+constexpr double just_behind = 0.001;         // metres
+constexpr double least_common_height = 0.01;  // metres: a wall of another storey stands behind no face
+constexpr double on_ring = 0.001;             // metres
+constexpr double least_part = 0.02;           // metres of an opening: less of it in a wall is none
 
 struct Range {
   double from = 1e300, to = -1e300;
@@ -153,6 +154,7 @@ void add_columns(const Building& building, const ElementLimits& limits, Elements
 
 void find_backing(Elements& elements) {
   std::vector<Box> boxes;
+  boxes.reserve(elements.walls.size());
   for (const auto& wall : elements.walls) boxes.emplace_back(wall.footprint.outline);
   for (auto& line : elements.lines) {
     const std::vector<Backing> spans = std::move(line.backing);
@@ -164,7 +166,9 @@ void find_backing(Elements& elements) {
     }
     const Box box(ends);
     for (std::size_t w = 0; w < elements.walls.size(); ++w) {
+      const Wall& wall = elements.walls[w];
       if (!box.meets(boxes[w], 2 * just_behind)) continue;
+      if (std::min(line.high, wall.high()) - std::max(line.low, wall.low()) < least_common_height) continue;
       for (const auto& piece : crossings(line, elements.walls[w].footprint))
         for (const auto& span : spans) {
           const double from = std::max(span.from, piece.from), to = std::min(span.to, piece.to);

@@ -33,18 +33,25 @@ struct Stretch {
 std::vector<WallFace> faces_of_storey(const Building& building, std::int32_t storey,
                                       const std::vector<RoomSpace>& rooms, const std::vector<bool>& of_columns) {
   std::vector<PlanPolygon> polygons;
+  polygons.reserve(rooms.size());
   for (const auto& room : rooms) polygons.push_back(room.polygon);
   std::vector<WallFace> faces = floorplan::wall_faces(building, storey, cut_height, polygons);
   std::erase_if(faces, [&](const WallFace& face) { return of_columns[static_cast<std::size_t>(face.primitive)]; });
   return faces;
 }
 
-void remember_lines(const std::vector<WallFace>& faces, Elements& elements) {
+void remember_lines(const Building& building, const std::vector<WallFace>& faces, Elements& elements) {
   for (const auto& face : faces) {
     FaceLine line;
     line.face = face.primitive;
     line.normal = face.normal;
     line.offset = face.normal.dot(face.point);
+    line.low = 1e300;
+    line.high = -1e300;
+    for (const auto v : building.faces[static_cast<std::size_t>(face.primitive)].outline) {
+      line.low = std::min(line.low, building.vertices[v].z());
+      line.high = std::max(line.high, building.vertices[v].z());
+    }
     for (const auto& span : face.spans)
       line.backing.push_back({-1, -1, line.along().dot(face.at(span.from)), line.along().dot(face.at(span.to))});
     elements.lines.push_back(std::move(line));
@@ -164,8 +171,11 @@ Region free_of(const Stretch& stretch, const std::vector<RoomSpace>& rooms, cons
   const Box box(stretch.outline);
   const double low = stretch.wall.low(), high = stretch.wall.high();
   Region taken;
-  for (const auto& room : rooms)
-    if (in_common(low, high, room.low, room.high) && box.meets(room.box)) taken.push_back(room.polygon);
+  for (const auto& room : rooms) {
+    if (!box.meets(room.box)) continue;
+    const Region own = occupied(room, low, high, overlapping);
+    taken.insert(taken.end(), own.begin(), own.end());
+  }
   for (std::size_t i = first; i < walls.size(); ++i)
     if (box.meets(boxes[i - first])) taken.push_back(walls[i].footprint);
   return floorplan::minus(floorplan::united({stretch.outline}), floorplan::joined(taken, {}));
@@ -261,7 +271,7 @@ void add_walls(const Building& building, const ElementLimits& limits, const std:
   for (std::size_t s = 0; s < building.storeys.size(); ++s) {
     const auto storey = static_cast<std::int32_t>(s);
     const auto faces = faces_of_storey(building, storey, rooms, of_columns);
-    remember_lines(faces, elements);
+    remember_lines(building, faces, elements);
     add_storey(building, stretches_of(building, storey, faces, limits), rooms, elements.walls);
   }
   part_storeys(building, elements.walls);

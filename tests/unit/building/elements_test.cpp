@@ -185,6 +185,40 @@ TEST(Elements, AWallBesideAHallEndsBelowTheRoomAboveIt) {
     }
 }
 
+TEST(Elements, AStairwellOfTheRoomBelowTakesNoWallsElsewhere) {
+  BoxBuilding b;
+  b.building.storeys = {{0, 2.5}, {2.8, 2.5}};
+  b.room(0, 0, 6, 3, 0, 5.3);
+  // Only x > 4 is 5.3 m high; over the rest there is a ceiling at 2.5 m.
+  auto& at = b.building.vertices;
+  const auto first = static_cast<std::uint32_t>(at.size());
+  for (const double z : {2.5, 5.3})
+    for (const auto& p : std::vector<Eigen::Vector2d>{{0, 0}, {4, 0}, {4, 3}, {0, 3}}) at.emplace_back(p.x(), p.y(), z);
+  BuildingFace low = b.building.faces[1];
+  low.outline = {first, first + 3, first + 2, first + 1};
+  low.plane.offset = 2.5;
+  b.building.faces[1].outline = {5, first + 5, first + 6, 6};
+  b.building.faces[2].outline = {0, first, first + 1, first + 5, 5, 1};
+  b.building.faces[4].outline = {2, 6, first + 6, first + 2, first + 3, 3};
+  b.building.faces[5].outline = {3, first + 3, first, 0};
+  b.building.rooms[0].faces.push_back(static_cast<std::int32_t>(b.building.faces.size()));
+  b.building.faces.push_back(low);
+  b.room(0, 0.1, 3.9, 2.9, 2.8, 5.3, 1);
+  const Elements elements = elements_of(b.building, {});
+  for (const auto& line : elements.lines) {
+    const BuildingFace& face = b.building.faces[static_cast<std::size_t>(line.face)];
+    if (face.room != 1) continue;
+    double length = 0;
+    for (const auto& part : line.backing) length += part.to - part.from;
+    EXPECT_NEAR(length, std::abs(face.plane.normal.x()) > 0.5 ? 2.8 : 3.9, 1e-3) << "face " << line.face;
+  }
+  const auto between = std::find_if(elements.slabs.begin(), elements.slabs.end(),
+                                    [](const Slab& slab) { return slab.kind == SlabKind::between; });
+  ASSERT_NE(between, elements.slabs.end());
+  EXPECT_NEAR(between->thickness, 0.3, 1e-9);
+  for (const auto& p : between->footprint.outline) EXPECT_LT(p.x(), 4.001) << "not in the stairwell";
+}
+
 TEST(Elements, ColumnsAreColumnsAndShaftsHaveWalls) {
   House house;
   House::Plan plan = House::rectangle(0, 0, 6, 5);
