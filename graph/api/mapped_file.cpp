@@ -1,12 +1,16 @@
 #include "graph/api/mapped_file.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 
 #include "graph/api/error.hpp"
 
@@ -28,6 +32,58 @@ struct Descriptor {
   int number;
 };
 
+/// What is mapped, for the signal that comes when a file was cut short by others: what lies behind its new end cannot
+/// be read. A handler may neither lock nor allocate.
+struct Mapping {
+  std::atomic<const char*> path = nullptr;  ///< null: the place is free
+  std::atomic<const std::byte*> begin = nullptr;
+  std::atomic<std::size_t> size = 0;
+};
+std::array<Mapping, 256> mappings;
+std::mutex mappings_mutex;
+struct sigaction earlier_action {};
+
+void say(const char* text) { static_cast<void>(!::write(STDERR_FILENO, text, std::strlen(text))); }
+
+void on_bus_error(int signal, siginfo_t* info, void* /*context*/) {
+  const auto* at = static_cast<const std::byte*>(info->si_addr);
+  for (const auto& mapping : mappings) {
+    const char* path = mapping.path;
+    const std::byte* begin = mapping.begin;
+    if (path == nullptr || at < begin || at >= begin + mapping.size) continue;
+    say("atrium: error: ");
+    say(path);
+    say(": the file was cut short while it was read\n  help: run again when nothing writes it any more\n");
+    ::_exit(1);
+  }
+  ::sigaction(signal, &earlier_action, nullptr);  // not ours: the fault comes again, to whom it belongs
+}
+
+/// Remembers the mapping; where there are too many, those are only not named.
+void remember(const std::string& path, const std::byte* data, std::size_t size) {
+  const std::lock_guard lock(mappings_mutex);
+  static const bool handled = [] {
+    struct sigaction action {};
+    action.sa_sigaction = on_bus_error;
+    action.sa_flags = SA_SIGINFO;
+    return ::sigaction(SIGBUS, &action, &earlier_action) == 0;
+  }();
+  static_cast<void>(handled);
+  for (auto& mapping : mappings) {
+    if (mapping.path != nullptr) continue;
+    mapping.begin = data;
+    mapping.size = size;
+    mapping.path = path.c_str();
+    return;
+  }
+}
+
+void forget(const std::byte* data) {
+  const std::lock_guard lock(mappings_mutex);
+  for (auto& mapping : mappings)
+    if (mapping.path != nullptr && mapping.begin == data) mapping.path = nullptr;
+}
+
 }  // namespace
 
 MappedFile::MappedFile(const std::filesystem::path& path, Kinds kinds) : path_(path.string()) {
@@ -48,10 +104,13 @@ MappedFile::MappedFile(const std::filesystem::path& path, Kinds kinds) : path_(p
   mapping_ = mapping;
   ::madvise(mapping_, size_, MADV_WILLNEED);
   data_ = static_cast<const std::byte*>(mapping_);
+  remember(path_, data_, size_);
 }
 
 MappedFile::~MappedFile() {
-  if (mapping_ != nullptr) ::munmap(mapping_, size_);
+  if (mapping_ == nullptr) return;
+  forget(data_);
+  ::munmap(mapping_, size_);
 }
 
 void MappedFile::read_all(int descriptor) {

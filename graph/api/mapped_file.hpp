@@ -8,7 +8,7 @@
 namespace atrium {
 
 /// A whole file, read-only in memory: mapped if it is a regular file, else read (pipes). Throws Error with the path and
-/// the system's reason. The file must not be cut short by others while it is mapped.
+/// the system's reason. If others cut the file short while it is mapped, the program ends with an error that names it.
 class MappedFile {
  public:
   enum class Kinds { all, regular };  ///< regular: others are refused, as reading a pipe would take from it

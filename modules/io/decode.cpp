@@ -8,21 +8,12 @@
 
 #include "graph/api/error.hpp"
 #include "modules/io/decode_columns.hpp"
+#include "modules/io/decode_source.hpp"
 
 namespace atrium::io {
 namespace {
 
 constexpr Role axes[3] = {Role::x, Role::y, Role::z};
-
-void check_count(const RawGeometry& geometry) {
-  if (geometry.count > std::numeric_limits<std::uint32_t>::max())
-    throw Error(fmt::format("{}: {} points; the most that can be handled are {}", geometry.path, geometry.count,
-                            std::numeric_limits<std::uint32_t>::max()));
-  if (geometry.count < 3)
-    throw Error(fmt::format("{}: {}", geometry.path,
-                            geometry.count == 0 ? "no points" : fmt::format("only {} points", geometry.count)),
-                "three points are the least that define a plane");
-}
 
 /// Numbers that are no class of ours become `object`.
 SurfaceClass class_of(std::int32_t number) {
@@ -108,6 +99,16 @@ Eigen::Vector3d good_position(const RawGeometry& geometry, double scale, std::si
 
 }  // namespace
 
+void check_count(const RawGeometry& geometry) {
+  if (geometry.count > std::numeric_limits<std::uint32_t>::max())
+    throw Error(fmt::format("{}: {} points; the most that can be handled are {}", geometry.path, geometry.count,
+                            std::numeric_limits<std::uint32_t>::max()));
+  if (geometry.count < 3)
+    throw Error(fmt::format("{}: {}", geometry.path,
+                            geometry.count == 0 ? "no points" : fmt::format("only {} points", geometry.count)),
+                "three points are the least that define a plane");
+}
+
 Eigen::Vector3d choose_origin(const RawGeometry& geometry, double scale) {
   constexpr std::size_t wanted = 2001;
   std::vector<double> sample[3];
@@ -118,9 +119,14 @@ Eigen::Vector3d choose_origin(const RawGeometry& geometry, double scale) {
     for (int a = 0; a < 3; ++a) sample[a].push_back(p[a]);
     return true;
   };
-  const std::size_t step = std::max<std::size_t>(1, geometry.count / wanted);
-  for (std::size_t i = 0; i < geometry.count; i += step) take(i);
-  for (std::size_t i = 0; sample[0].empty() && i < geometry.count; ++i) take(i);
+  if (geometry.source) {
+    for (const auto& p : some_points(*geometry.source, scale))
+      for (int a = 0; a < 3; ++a) sample[a].push_back(p[a]);
+  } else {
+    const std::size_t step = std::max<std::size_t>(1, geometry.count / wanted);
+    for (std::size_t i = 0; i < geometry.count; i += step) take(i);
+    for (std::size_t i = 0; sample[0].empty() && i < geometry.count; ++i) take(i);
+  }
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   if (sample[0].empty()) return origin;
   for (int a = 0; a < 3; ++a) {
@@ -134,6 +140,7 @@ Eigen::Vector3d choose_origin(const RawGeometry& geometry, double scale) {
 Cloud decode_cloud(const RawGeometry& geometry, double scale, const Context& context,
                    std::vector<std::uint32_t>* kept) {
   check_count(geometry);
+  if (geometry.source) return decode_blocks(geometry, scale, context);
   Cloud cloud;
   cloud.origin = choose_origin(geometry, scale);
   const std::vector<std::uint32_t> dropped = decode_points(geometry, scale, cloud, context);
@@ -157,6 +164,8 @@ Cloud decode_cloud(const RawGeometry& geometry, double scale, const Context& con
 }
 
 Mesh decode_mesh(const RawGeometry& geometry, double scale, const Context& context) {
+  if (geometry.source)
+    throw Error(geometry.path + ": a file of points, without faces", "io.read_scan reads it as a cloud");
   Mesh mesh;
   mesh.origin = choose_origin(geometry, scale);
   mesh.vertices.resize(geometry.count, Eigen::Vector3d::Zero());

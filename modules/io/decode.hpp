@@ -12,6 +12,9 @@ inline constexpr double largest_coordinate = 1e9;
 /// 0.06 mm there.
 inline constexpr double largest_local_coordinate = 1000.0;
 
+/// Throws Error unless there are three points at least, and not more than can be handled.
+void check_count(const RawGeometry& geometry);
+
 /// Where the origin of a geometry is put: 0 on each axis on which the median of (a sample of) the coordinates is within
 /// largest_local_coordinate; else that median, rounded down to a whole metre. So files with small coordinates keep
 /// their numbers, georeferenced ones keep their millimetres, and stray points far away do not matter.

@@ -26,22 +26,6 @@ void each_number(const Column& column, std::size_t begin, std::size_t end, F&& w
   }
 }
 
-/// What colour values have to be multiplied by to lie in 0 … 255.
-double colour_factor(const RawGeometry& geometry, const Context& context) {
-  std::vector<double> largest((geometry.count + chunk - 1) / chunk, 0.0);
-  bool floating = false;
-  for (const Role role : colour_roles) {
-    const Column& column = geometry.column(role);
-    floating = floating || is_floating(column.type);
-    context.parallel_chunks(geometry.count, chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
-      each_number(column, begin, end, [&](std::size_t, double v) { largest[c] = v > largest[c] ? v : largest[c]; });
-    });
-  }
-  const double most = largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
-  if (floating && most <= 1.0) return 255.0;
-  return most <= 255.0 ? 1.0 : 255.0 / 65535.0;
-}
-
 std::uint8_t to_byte(double v) {
   if (!(v > 0)) return 0;  // NaN too
   return static_cast<std::uint8_t>(std::min(255.0, std::floor(v + 0.5)));
@@ -75,6 +59,21 @@ void decode_packed(const RawGeometry& geometry, std::vector<Colour>& colours, co
 }
 
 }  // namespace
+
+double colour_factor(const RawGeometry& geometry, const Context& context) {
+  std::vector<double> largest((geometry.count + chunk - 1) / chunk, 0.0);
+  bool floating = false;
+  for (const Role role : colour_roles) {
+    const Column& column = geometry.column(role);
+    floating = floating || is_floating(column.type);
+    context.parallel_chunks(geometry.count, chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
+      each_number(column, begin, end, [&](std::size_t, double v) { largest[c] = v > largest[c] ? v : largest[c]; });
+    });
+  }
+  const double most = largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
+  if (floating && most <= 1.0) return 255.0;
+  return most <= 255.0 ? 1.0 : 255.0 / 65535.0;
+}
 
 void read_numbers(const Column& column, std::size_t first, std::size_t count, double* to) {
   const std::byte* from = column.data + first * column.stride;

@@ -16,6 +16,8 @@ void decode_normals(const RawGeometry& geometry, const std::vector<std::uint32_t
                     std::vector<Eigen::Vector3f>& normals, const Context& context);
 /// Bytes are taken as they are. Other numbers by the largest there is: to 1 (0 … 1), to 255 (0 … 255), else 16 bits.
 void decode_colours(const RawGeometry& geometry, std::vector<Colour>& colours, const Context& context);
+/// What colour values have to be multiplied by to lie in 0 … 255, by the same rule.
+double colour_factor(const RawGeometry& geometry, const Context& context);
 /// What is not finite becomes 0.
 void decode_intensities(const RawGeometry& geometry, std::vector<float>& intensities, const Context& context);
 /// Indices into geometry.sensors, if the file has such. Throws Error where one is out of range.

@@ -76,26 +76,12 @@ Lines::Lines(std::string_view text, std::size_t first_line, bool comments, const
 void Lines::for_rows(std::size_t begin, std::size_t end, const Context& context,
                      const std::function<void(std::size_t, const Row&)>& work) const {
   std::vector<std::exception_ptr> errors(pieces_.size());
-  const auto one = [&](std::size_t p) {
-    const Piece& piece = pieces_[p];
-    if (piece.first_row + piece.rows <= begin || piece.first_row >= end) return;
-    Row row{piece.first_row, piece.first_line, {}};
-    each_line(piece.text, [&](std::string_view line) {
-      if (is_row(line, comments_)) {
-        row.text = line;
-        if (row.index >= begin) work(p, row);
-        ++row.index;
-      }
-      ++row.line;
-      return row.index < end;
-    });
-  };
   context.parallel_for(
       pieces_.size(),
       [&](std::size_t first, std::size_t last) {
         for (std::size_t p = first; p < last; ++p) {
           try {
-            one(p);
+            rows_of(p, begin, end, [&](const Row& row) { work(p, row); });
           } catch (...) {
             errors[p] = std::current_exception();
           }
@@ -104,6 +90,31 @@ void Lines::for_rows(std::size_t begin, std::size_t end, const Context& context,
       1);
   for (const auto& error : errors)
     if (error) std::rethrow_exception(error);
+}
+
+void Lines::rows_of(std::size_t p, std::size_t begin, std::size_t end,
+                    const std::function<void(const Row&)>& work) const {
+  const Piece& piece = pieces_[p];
+  if (piece.first_row + piece.rows <= begin || piece.first_row >= end) return;
+  Row row{piece.first_row, piece.first_line, {}};
+  each_line(piece.text, [&](std::string_view line) {
+    if (is_row(line, comments_)) {
+      row.text = line;
+      if (row.index >= begin) work(row);
+      ++row.index;
+    }
+    ++row.line;
+    return row.index < end;
+  });
+}
+
+Row Lines::row(std::size_t index) const {
+  const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), index, [](std::size_t i, const Piece& piece) {
+    return i < piece.first_row + piece.rows;
+  });
+  Row found;
+  rows_of(static_cast<std::size_t>(after - pieces_.begin()), index, index + 1, [&](const Row& row) { found = row; });
+  return found;
 }
 
 std::string_view next_token(std::string_view& text) {

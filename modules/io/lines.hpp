@@ -36,6 +36,11 @@ class Lines {
   /// errors that of the earliest piece is thrown.
   void for_rows(std::size_t begin, std::size_t end, const Context& context,
                 const std::function<void(std::size_t piece, const Row& row)>& work) const;
+  /// Calls work(row) for the rows of one piece that lie in [begin, end), in order.
+  void rows_of(std::size_t piece, std::size_t begin, std::size_t end,
+               const std::function<void(const Row& row)>& work) const;
+  /// One row.
+  Row row(std::size_t index) const;
 
  private:
   bool comments_;

@@ -28,6 +28,9 @@ constexpr std::pair<std::string_view, Role> names[] = {
     {"r", Role::red},
     {"g", Role::green},
     {"b", Role::blue},
+    {"rf", Role::red},
+    {"gf", Role::green},
+    {"bf", Role::blue},
     {"rgb", Role::packed_colour},
     {"rgba", Role::packed_colour},
     {"intensity", Role::intensity},
@@ -46,6 +49,8 @@ Role role_of(std::string_view name) {
   std::string lower(name);
   std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
   std::string_view key = lower;
+  key = key.substr(0, key.find_first_of("[("));  // a unit, as in "X [m]"
+  while (!key.empty() && key.back() == ' ') key.remove_suffix(1);
   for (const std::string_view prefix : {"scalar_", "diffuse_", "vertex_"})
     if (key.starts_with(prefix)) key.remove_prefix(prefix.size());
   for (const auto& [known, role] : names)

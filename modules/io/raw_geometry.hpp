@@ -45,12 +45,17 @@ struct Column {
   explicit operator bool() const { return data != nullptr; }
 };
 
-/// What a reader found in a file: columns still in the file's number types, and triangles. decode_cloud and decode_mesh
-/// turn it into port values.
+class PointSource;
+
+/// What a reader found in a file: columns still in the file's number types, and triangles; or a source of points.
+/// decode_cloud and decode_mesh turn it into port values.
 struct RawGeometry {
   std::string path;
-  std::size_t count = 0;  ///< vertices
+  std::size_t count = 0;  ///< vertices; of a source the most that it can give
   std::array<Column, role_count> columns;
+  std::shared_ptr<const PointSource> source;  ///< if set, the points come from here, block by block, not from `columns`
+  std::optional<double> metres_per_unit;      ///< if the format or the file says it
+  std::string crs;                            ///< coordinate reference system as Cloud has it
   std::vector<std::array<std::uint32_t, 3>> triangles;     ///< every index below `count`
   std::vector<std::int32_t> classes, storeys, primitives;  ///< per triangle, or empty
   std::size_t skipped_faces = 0;                           ///< faces of fewer than three corners

@@ -5,12 +5,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "modules/geometry/poisson_disk.hpp"
 #include "modules/io/decode.hpp"
 #include "modules/io/duplicates.hpp"
 #include "modules/io/paths.hpp"
 #include "modules/io/read_geometry.hpp"
+#include "modules/io/thin_scan.hpp"
 #include "modules/io/unit_guess.hpp"
 
 namespace atrium::io {
@@ -37,6 +39,26 @@ void hint_at_unit(const std::string& path, const Cloud& cloud, const Context& co
                              path, extent.x(), extent.y(), extent.z()));
 }
 
+/// float32 has 24 bits: far from zero the coordinates move in steps.
+void warn_of_lost_digits(const RawGeometry& geometry, const Cloud& cloud, double scale, const Context& context) {
+  constexpr double fine = 0.001;  // metres
+  if (geometry.source || geometry.column(Role::x).type != Scalar::f32) return;
+  double worst = 0;
+  int axis = 0;
+  for (int a = 0; a < 3; ++a) {
+    const auto there = static_cast<float>(std::abs(cloud.origin[a]) / scale);
+    const double step = (std::nextafter(there, std::numeric_limits<float>::max()) - there) * scale;
+    if (step <= worst) continue;
+    worst = step;
+    axis = a;
+  }
+  if (worst > fine)
+    context.warn(
+        fmt::format("{}: coordinates along {} are in steps of {:.2g} m, as float32 is so far from zero: what was finer "
+                    "is lost; export as double, or shifted",
+                    geometry.path, "xyz"[axis], worst));
+}
+
 bool usually_y_up(const std::string& path) {
   const std::string extension = extension_of(path);
   return extension == ".obj" || extension == ".glb" || extension == ".gltf";
@@ -56,8 +78,13 @@ double metres_per(ReadScan::Unit unit) {
 double unit_of(const RawGeometry& geometry, const ReadScan::Params& params, const Cloud& unscaled,
                const Context& context) {
   if (params.scale != 1.0) return 1.0;
-  const std::string extension = extension_of(geometry.path);
-  if (extension == ".glb" || extension == ".gltf" || extension == ".e57") return 1.0;  // metres by their rules
+  if (geometry.metres_per_unit) {
+    const double metres = *geometry.metres_per_unit;
+    if (metres != 1.0)
+      context.warn(fmt::format("{}: its unit is {:.7g} m, as the file says; -s scan.unit=m forces metres",
+                               geometry.path, metres));
+    return metres;
+  }
   const UnitGuess guess = guess_unit(unscaled.points, usually_y_up(geometry.path), context);
   if (!guess.warning.empty())
     context.warn(fmt::format("{}: {}", geometry.path, guess.warning));
@@ -108,21 +135,26 @@ ReadScan::Out ReadScan::run(const In& /*in*/, const Params& params, Context& con
   const std::string& path = params.path.path;
   const RawGeometry geometry = read_geometry(path, context);
   const bool sampled = params.mesh == MeshUse::sample && !geometry.triangles.empty();
+  const bool thin = params.voxel > 0 && !sampled;
   const auto decoded = [&](double scale) {
-    return sampled ? sample(geometry, params, scale, context) : decode_cloud(geometry, scale, context);
+    if (sampled) return sample(geometry, params, scale, context);
+    return thin ? thinned(geometry, scale, params.voxel, context) : decode_cloud(geometry, scale, context);
   };
   const bool known = params.unit != Unit::automatic;
   double scale = params.scale * (known ? metres_per(params.unit) : 1.0);
+  if (thin && !known) scale *= unit_of(geometry, params, sample_of(geometry, context), context);
   Cloud cloud = decoded(scale);
-  if (!known) {
+  if (!thin && !known) {
     const double unit = unit_of(geometry, params, cloud, context);
     if (unit != 1.0) cloud = decoded(scale *= unit);
   }
   cloud.unit = scale;
   cloud.y_up = usually_y_up(path);
+  cloud.crs = geometry.crs;
   set_sensor(geometry, params, scale, cloud);
+  warn_of_lost_digits(geometry, cloud, scale, context);
   hint_at_unit(path, cloud, context);
-  warn_of_duplicates(path, cloud, context);
+  if (!thin) warn_of_duplicates(path, cloud, context);
   return {std::move(cloud)};
 }
 

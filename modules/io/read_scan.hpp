@@ -6,8 +6,14 @@ namespace atrium::io {
 
 /// Reads a scan.
 ///
-/// Formats: PLY (ascii, binary of either byte order). Colours, normals, intensities and labels are kept where the file
-/// has them for every point.
+/// Formats, found by what the file begins with, else by its extension: E57 (all scans, by their poses; cartesian,
+/// spherical), LAS 1.0 to 1.4 (records 0 to 10), LAZ (records 0 to 3 and 6 to 8), PTX (several scans), PLY (ascii,
+/// binary of either byte order), PCD, OBJ, STL and text (PTS of several scans too). Colours, normals, intensities and
+/// labels are kept where the file has them for every point: colours of E57 by their limits, of LAS in 16 or 8 bits;
+/// intensities of E57 as 0 to 1 where they have limits; classifications as labels. Records that say that they are no
+/// points are left out: E57's invalid states, (0, 0, 0) in E57's and PTX's grids, withheld points of LAS. Images in E57
+/// are passed over. Files that only their makers' programs read (RCP, FLS, ZFS and so on) are refused, saying what to
+/// export.
 ///
 /// A mesh becomes points on its surface (paper, "Data set preparation": Poisson-disk samples, as many as it has
 /// vertices).
@@ -18,11 +24,16 @@ namespace atrium::io {
 /// Unit: coordinates are times `unit` and `scale` in the cloud, which is in metres. With unit: auto it is what makes
 /// rooms of the scan: heights of rooms and widths, doors, tables and seats, along each axis that may be up (see
 /// align.gravity), and metres in nine files of ten. Metres stand unless another unit is clearly (4.5 times) more
-/// likely; what was found, and what is in doubt, is a warning. Formats that fix the unit are believed.
+/// likely; what was found, and what is in doubt, is a warning. E57 and PTX are in metres, and LAS in the unit of its
+/// reference system, if it names one. The reference system itself (WKT, EPSG code) is kept in the cloud.
+///
+/// Any size: with `voxel` the points are thinned while they are read, to the same points as filter.voxel_grid gives
+/// with that size. Memory then grows with the surface that was scanned, not with the points, which need 12 to 40 bytes
+/// each.
 ///
 /// Errors: file missing, empty, truncated or malformed (with line or byte), without points, with fewer than three
 /// finite points. Warnings: points that are not finite (dropped), normals that are not (left out), a unit that is not
-/// metres or in doubt, many points in one place.
+/// metres or in doubt, float32 coordinates so far from zero that they lost millimetres, many points in one place.
 struct ReadScan {
   static constexpr std::string_view type = "io.read_scan";
   static constexpr std::string_view summary = "Reads a point cloud or mesh file as a cloud.";
@@ -42,12 +53,14 @@ struct ReadScan {
     std::int64_t samples = 0;
     double spacing = 0;
     SensorUse sensor = SensorUse::automatic;
+    double voxel = 0;
   };
   static constexpr auto inputs = std::tuple{};
   static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "The points, in the file's frame, in metres.")};
   static constexpr auto params = std::tuple{
       param(&Params::path, "path",
-            "The file: .ply, .pcd, .obj, .stl, or text: .xyz, .txt, .pts, .csv, .asc, .xyzn, .xyzrgb."),
+            "The file: .e57, .las, .laz, .ptx, .ply, .pcd, .obj, .stl, or text: .xyz, .txt, .pts, .csv, .asc, .xyzn, "
+            ".xyzrgb."),
       param(&Params::unit, "unit",
             {{"auto", Unit::automatic},
              {"m", Unit::metre},
@@ -67,13 +80,16 @@ struct ReadScan {
             "Where `samples` is 0: a mesh gets one sample for each square this wide on its surface. 0: as many samples "
             "as "
             "it has vertices (the paper)."),
-      param(&Params::sensor, "sensor",
-            {{"auto", SensorUse::automatic}, {"origin", SensorUse::origin}, {"none", SensorUse::none}},
-            "Where the scanner stood. auto: where the file says (VIEWPOINT of PCD, camera of PLY; several places as "
-            "io.write_cloud writes them to PLY), "
-            "if that is not the all-zero default, which exported clouds have too; the file's origin if the points are "
-            "one "
-            "depth image (PCD with a height above 1). origin: the file's origin. none: not known.")};
+      param(
+          &Params::sensor, "sensor",
+          {{"auto", SensorUse::automatic}, {"origin", SensorUse::origin}, {"none", SensorUse::none}},
+          "Where the scanner stood. auto: where the file says (poses of E57 and PTX, VIEWPOINT of PCD, camera of PLY; "
+          "several places as io.write_cloud writes them to PLY), if that is not the all-zero default, which exported "
+          "clouds have too; the file's origin if the points are one depth image (PCD with a height above 1). origin: "
+          "the file's origin. none: not known."),
+      param(&Params::voxel, "voxel", metres, within(0, 100),
+            "Edge of the voxels that points are joined in while they are read; 0: all points are kept. Not for meshes "
+            "that are sampled.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

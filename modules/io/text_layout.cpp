@@ -10,41 +10,54 @@
 namespace atrium::io {
 namespace {
 
+using Fields = std::vector<std::string_view>;
+
 const char* const columns_help =
     "name the columns in a first line, for example: x y z intensity r g b nx ny nz (others are skipped)";
 
-std::vector<std::string_view> tokens_of(std::string_view line) {
-  std::vector<std::string_view> all;
+Fields tokens_of(std::string_view line) {
+  Fields all;
   for (auto t = next_token(line); !t.empty(); t = next_token(line)) all.push_back(t);
   return all;
 }
 
-std::string_view unquoted(std::string_view name) {
-  if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-  return name;
-}
-
-/// The roles if the tokens name the columns, with x, y and z among them; else empty.
-std::vector<Role> named_roles(const std::vector<std::string_view>& names) {
+/// The roles if the fields name the columns, with x, y and z among them; else empty.
+std::vector<Role> named_roles(const Fields& names) {
   std::vector<Role> roles;
   bool position[3] = {false, false, false};
-  for (const auto name : names) {
-    Role role = role_of(unquoted(name));
-    if (role == Role::packed_colour || std::find(roles.begin(), roles.end(), role) != roles.end()) role = Role::none;
+  for (auto name : names) {
+    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+    Role role = role_of(name);
+    if (role == Role::packed_colour || role == Role::source ||
+        std::find(roles.begin(), roles.end(), role) != roles.end())
+      role = Role::none;
     roles.push_back(role);
     if (role <= Role::z) position[static_cast<std::size_t>(role)] = true;
   }
   return position[0] && position[1] && position[2] ? roles : std::vector<Role>{};
 }
 
-bool is_numeric(const std::vector<std::string_view>& tokens) {
-  double v = 0;
-  return std::all_of(tokens.begin(), tokens.end(), [&](std::string_view t) { return parse_number(t, v); });
+/// The same for a line of names, by the dialect of the rows or by any separator, for so many columns if it can be.
+std::vector<Role> named_roles(std::string_view line, const TextDialect& dialect, std::size_t width) {
+  Fields plain = tokens_of(line);
+  std::erase_if(plain, [](std::string_view t) { return t.front() == '[' || t.front() == '('; });  // units on their own
+  std::vector<Role> best;
+  for (const auto& names :
+       {fields_of(line, dialect), fields_of(line, {'\t'}), fields_of(line, {';'}), fields_of(line, {','}), plain}) {
+    auto roles = named_roles(names);
+    if (!roles.empty() && (best.empty() || (best.size() != width && roles.size() == width))) best = std::move(roles);
+  }
+  return best;
 }
 
-/// The names in the last comment before the first row that gives any.
-std::vector<Role> roles_in_comments(std::string_view text) {
-  std::vector<Role> roles;
+bool is_numeric(const Fields& fields, const TextDialect& dialect) {
+  double v = 0;
+  return std::all_of(fields.begin(), fields.end(), [&](std::string_view t) { return parse_field(t, dialect, v); });
+}
+
+/// The last comment before the first row that names columns.
+std::string_view names_in_comments(std::string_view text) {
+  std::string_view names;
   while (!text.empty()) {
     const std::size_t length = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, length);
@@ -54,106 +67,225 @@ std::vector<Role> roles_in_comments(std::string_view text) {
     line.remove_prefix(begin);
     if (!line.starts_with('#') && !line.starts_with("//")) break;
     line.remove_prefix(std::min(line.find_first_not_of("#/"), line.size()));
-    if (auto found = named_roles(tokens_of(line)); !found.empty()) roles = std::move(found);
+    if (!named_roles(line, {}, 0).empty()) names = line;
   }
-  return roles;
+  return names;
 }
 
-/// The first rows, up to `most` from `first` on.
-std::vector<Row> some_rows(const Lines& lines, std::size_t first, std::size_t most, const Context& context) {
-  std::vector<Row> rows(std::min(most, lines.rows() - first));
-  lines.for_rows(first, first + rows.size(), context,
-                 [&](std::size_t, const Row& row) { rows[row.index - first] = row; });
-  return rows;
-}
-
-/// Whether columns c, c+1, c+2 are unit vectors in all of the rows (zero vectors and NaN may be among them).
-bool are_unit_vectors(const std::string& path, const std::vector<Row>& rows, std::size_t width, std::size_t c) {
-  std::vector<double> v(width);
-  std::size_t unit = 0;
-  for (const Row& row : rows) {
-    read_numbers(path, row, width, v.data());
-    const double length = std::sqrt(v[c] * v[c] + v[c + 1] * v[c + 1] + v[c + 2] * v[c + 2]);
-    if (!(length > 0)) continue;
-    if (std::abs(length - 1.0) > 0.02) return false;
-    ++unit;
+/// The numbers of some rows, which all have so many columns.
+class SampledRows {
+ public:
+  SampledRows(const std::string& path, const std::vector<Row>& rows, const TextDialect& dialect, std::size_t width)
+      : width_(width), numbers_(rows.size() * width) {
+    const std::vector<Role> all(width, Role::x);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      read_numbers(path, rows[i], dialect, all, numbers_.data() + i * width);
   }
-  return unit > 0;
-}
+  template <class F>
+  bool all(std::size_t column, F&& holds) const {
+    for (std::size_t i = column; i < numbers_.size(); i += width_)
+      if (!holds(numbers_[i])) return false;
+    return true;
+  }
+  /// Whether columns c, c+1, c+2 are unit vectors in all of the rows (zero vectors and NaN may be among them).
+  bool are_unit_vectors(std::size_t c) const {
+    std::size_t unit = 0;
+    for (std::size_t i = c; i < numbers_.size(); i += width_) {
+      const double* v = numbers_.data() + i;
+      const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+      if (!(length > 0)) continue;
+      if (std::abs(length - 1.0) > 0.02) return false;
+      ++unit;
+    }
+    return unit > 0;
+  }
+  /// Whether the first column is n, n + 1, n + 2, …
+  bool counts() const {
+    constexpr std::size_t least = 3;
+    for (std::size_t i = width_; i < numbers_.size(); i += width_)
+      if (numbers_[i] != numbers_[i - width_] + 1) return false;
+    return numbers_.size() >= least * width_ && numbers_[0] == std::floor(numbers_[0]);
+  }
 
-std::vector<Role> roles_by_count(const std::string& path, const std::vector<Row>& rows, std::size_t width) {
+ private:
+  std::size_t width_;
+  std::vector<double> numbers_;
+};
+
+bool is_byte(double v) { return v >= 0 && v <= 255 && v == std::floor(v); }
+bool is_small_label(double v) { return v >= 0 && v <= 40 && v == std::floor(v); }
+
+/// Roles of columns without names, from column `c` on, which are all that are left; empty if they cannot be told.
+std::vector<Role> roles_by_count(const SampledRows& rows, std::size_t width, std::size_t c) {
   using enum Role;
-  switch (width) {
+  switch (width - c) {
     case 3: return {x, y, z};
     case 4: return {x, y, z, intensity};
     case 6:
-      if (are_unit_vectors(path, rows, width, 3)) return {x, y, z, nx, ny, nz};
+      if (rows.are_unit_vectors(c + 3)) return {x, y, z, nx, ny, nz};
       return {x, y, z, red, green, blue};
-    case 7: return {x, y, z, intensity, red, green, blue};
+    case 7: {
+      const bool bytes = rows.all(c + 3, is_byte) && rows.all(c + 4, is_byte) && rows.all(c + 5, is_byte);
+      const bool bright =
+          !rows.all(c + 3, is_small_label) || !rows.all(c + 4, is_small_label) || !rows.all(c + 5, is_small_label);
+      if (bytes && bright && rows.all(c + 6, is_small_label)) return {x, y, z, red, green, blue, label};
+      return {x, y, z, intensity, red, green, blue};
+    }
     case 9:
-      if (are_unit_vectors(path, rows, width, 3)) return {x, y, z, nx, ny, nz, red, green, blue};
+      if (rows.are_unit_vectors(c + 3)) return {x, y, z, nx, ny, nz, red, green, blue};
       return {x, y, z, red, green, blue, nx, ny, nz};
     case 10: return {x, y, z, intensity, red, green, blue, nx, ny, nz};
-    default:
-      throw Error(fmt::format("{}:{}: {} columns without names: which of them are x, y, z cannot be told", path,
-                              rows.front().line, width),
-                  columns_help);
+    default: return {};
   }
 }
 
-void check_decimal_commas(const std::string& path, const Row& row) {
-  if (row.text.find(';') != std::string_view::npos && row.text.find(',') != std::string_view::npos)
-    throw Error(fmt::format("{}:{}: both ';' and ',' in a line: decimal commas cannot be read", path, row.line),
-                "write numbers with a decimal point");
+std::string text_of(const std::vector<Role>& roles) {
+  static constexpr const char* names[role_count] = {"x", "y", "z",   "nx",        "ny",    "nz",    "r",
+                                                    "g", "b", "rgb", "intensity", "label", "source"};
+  std::string text;
+  for (const Role role : roles) {
+    if (!text.empty()) text += ' ';
+    text += role == Role::none ? "-" : names[static_cast<std::size_t>(role)];
+  }
+  return text;
+}
+
+std::vector<Role> unnamed_roles(const std::string& path, const std::vector<Row>& rows, const TextDialect& dialect,
+                                std::size_t width, const Context& context) {
+  const SampledRows numbers(path, rows, dialect, width);
+  std::vector<Role> roles;
+  const bool counts = width > 3 && numbers.counts();
+  if (counts) {
+    roles = roles_by_count(numbers, width, 1);
+    if (!roles.empty()) roles.insert(roles.begin(), Role::none);
+  }
+  if (roles.empty()) roles = roles_by_count(numbers, width, 0);
+  if (roles.empty())
+    throw Error(fmt::format("{}:{}: {} columns without names: which of them are x, y, z cannot be told", path,
+                            rows.front().line, width),
+                columns_help);
+  const std::string taken = fmt::format("{}: columns without names, taken for {}", path, text_of(roles));
+  if (roles.front() == Role::none)
+    context.warn(taken + ": the first one counts the rows");
+  else if (roles.back() == Role::label)
+    context.warn(taken + ": a line of names in front would say so");
+  else
+    context.info(taken);
+  return roles;
+}
+
+/// The first row from `at` on that is one field; lines.rows() if there is none.
+std::size_t next_single(const Lines& lines, std::size_t at) {
+  std::size_t found = lines.rows();
+  for (std::size_t p = 0; p < lines.pieces().size() && found == lines.rows(); ++p)
+    lines.rows_of(p, at, lines.rows(), [&](const Row& row) {
+      if (found == lines.rows() && tokens_of(row.text).size() == 1) found = row.index;
+    });
+  return found;
+}
+
+/// The scans of a PTS file, each led by the number of its points; those without points are left out.
+std::vector<RowScan> counted_scans(const std::string& path, const Lines& lines, const Context& context) {
+  std::vector<RowScan> scans;
+  for (std::size_t at = 0; at < lines.rows();) {
+    const Row head = lines.row(at);
+    const Fields tokens = tokens_of(head.text);
+    if (tokens.size() != 1 && !scans.empty()) {  // more points than were promised
+      RowScan& last = scans.back();
+      at = next_single(lines, at);
+      context.warn(fmt::format("{}:{}: {} points are declared, but {} lines follow: all are read", path,
+                               lines.row(last.first - 1).line, last.rows, at - last.first));
+      last.rows = at - last.first;
+      continue;
+    }
+    const std::size_t left = lines.rows() - at - 1;
+    double points = 0;
+    const bool good = tokens.size() == 1 && parse_number(tokens[0], points) && points >= 0 &&
+                      points <= static_cast<double>(left) && points == std::floor(points);
+    if (!good)
+      throw Error(fmt::format("{}:{}: {} points are declared, but {} lines follow", path, head.line,
+                              tokens.size() == 1 ? std::string(tokens[0]) : quote(head.text), left),
+                  "the file is cut short");
+    const auto rows = static_cast<std::size_t>(points);
+    if (rows > 0) scans.push_back({at + 1, rows, Eigen::Affine3d::Identity(), false, false});
+    at += 1 + rows;
+  }
+  if (scans.empty()) throw Error(path + ": no points: the scans have 0 points");
+  return scans;
+}
+
+/// The first rows, up to `most` from `first` on.
+std::vector<Row> some_rows(const Lines& lines, std::size_t first, std::size_t most) {
+  std::vector<Row> rows;
+  const std::size_t end = std::min(lines.rows(), first + most);
+  for (std::size_t p = 0; p < lines.pieces().size() && rows.size() < end - first; ++p)
+    lines.rows_of(p, first, end, [&](const Row& row) { rows.push_back(row); });
+  return rows;
 }
 
 }  // namespace
 
 TextLayout text_layout(const std::string& path, std::string_view text, const Lines& lines, const Context& context) {
-  TextLayout layout{roles_in_comments(text), 0};
-  std::vector<Row> rows = some_rows(lines, 0, 2, context);
-  if (rows.empty()) throw Error(path + ": no points: every line is blank or a comment");
-  auto tokens = tokens_of(rows[0].text);
-  if (tokens.size() == 1 && rows.size() > 1 && is_numeric(tokens)) {  // PTS: the number of points
-    double points = 0;
-    parse_number(tokens[0], points);
-    if (points != static_cast<double>(lines.rows() - 1))
-      throw Error(fmt::format("{}:{}: {} points are declared, but {} lines follow", path, rows[0].line, tokens[0],
-                              lines.rows() - 1),
-                  "the file is cut short, or holds several scans");
-    layout.first_row = 1;
-    tokens = tokens_of(rows[1].text);
+  constexpr std::size_t looked_at = 100;
+  TextLayout layout;
+  if (lines.rows() == 0) throw Error(path + ": no points: every line is blank or a comment");
+  std::size_t end = lines.rows();
+  const Fields first = tokens_of(lines.row(0).text);
+  double count = 0;
+  if (first.size() == 1 && lines.rows() > 1 && parse_number(first[0], count)) {  // PTS: the number of points
+    auto scans = counted_scans(path, lines, context);
+    layout.first_row = scans.front().first;
+    end = layout.first_row + scans.front().rows;
+    if (scans.size() > 1 || end != lines.rows()) layout.scans = std::move(scans);
   }
-  if (!is_numeric(tokens)) {
-    const Row& row = rows[layout.first_row];
-    layout.roles = named_roles(tokens);
+  std::vector<Row> rows = some_rows(lines, layout.first_row, std::min(looked_at, end - layout.first_row));
+  Fields sample;
+  for (std::size_t i = rows.size() > 1 ? 1 : 0; i < rows.size(); ++i) sample.push_back(rows[i].text);
+  layout.dialect = dialect_of(sample);
+  if (layout.dialect.decimal_comma) context.info(path + ": numbers with a decimal comma");
+
+  const std::size_t width_below = fields_of(rows.back().text, layout.dialect).size();
+  std::string_view names = names_in_comments(text);
+  if (!is_numeric(fields_of(rows[0].text, layout.dialect), layout.dialect)) {
+    names = rows[0].text;
+    layout.roles = named_roles(names, layout.dialect, width_below);
     if (layout.roles.empty())
-      throw Error(
-          fmt::format("{}:{}: neither numbers nor column names with x, y and z: {}", path, row.line, quote(row.text)),
-          columns_help);
-    if (++layout.first_row >= lines.rows()) throw Error(path + ": no points after the line of column names");
+      throw Error(fmt::format("{}:{}: neither numbers nor column names with x, y and z: {}", path, rows[0].line,
+                              quote(rows[0].text)),
+                  columns_help);
+    ++layout.first_row;
+    rows.erase(rows.begin());
+    if (rows.empty()) throw Error(path + ": no points after the line of column names");
+  } else if (!names.empty()) {
+    layout.roles = named_roles(names, layout.dialect, width_below);
   }
-  rows = some_rows(lines, layout.first_row, 100, context);
-  check_decimal_commas(path, rows.front());
-  const std::size_t width = tokens_of(rows.front().text).size();
-  if (layout.roles.empty()) layout.roles = roles_by_count(path, rows, width);
-  if (layout.roles.size() != width)
+  const Fields fields = fields_of(rows.front().text, layout.dialect);
+  if (layout.roles.empty()) {
+    std::size_t width = fields.size();
+    while (width > 3 && fields[width - 1].empty()) --width;
+    layout.roles = unnamed_roles(path, rows, layout.dialect, width, context);
+  }
+  const bool behind = fields.size() > layout.roles.size() &&
+                      std::all_of(fields.begin() + static_cast<std::ptrdiff_t>(layout.roles.size()), fields.end(),
+                                  [](std::string_view f) { return f.empty(); });
+  if (layout.roles.size() != fields.size() && !behind)
     throw Error(fmt::format("{}:{}: {} columns are named, but the line has {} values", path, rows.front().line,
-                            layout.roles.size(), width));
+                            layout.roles.size(), fields.size()));
   return layout;
 }
 
-void read_numbers(const std::string& path, const Row& row, std::size_t width, double* to) {
-  std::string_view rest = row.text;
-  for (std::size_t c = 0; c < width; ++c) {
-    const std::string_view token = next_token(rest);
-    if (token.empty())
-      throw Error(fmt::format("{}:{}: {} values instead of {} (cut short?)", path, row.line, c, width));
-    if (!parse_number(token, to[c]))
-      throw Error(fmt::format("{}:{}: {} is not a number", path, row.line, quote(token)));
+void read_numbers(const std::string& path, const Row& row, const TextDialect& dialect, const std::vector<Role>& roles,
+                  double* to) {
+  std::string_view rest = row.text, field;
+  for (std::size_t c = 0; c < roles.size(); ++c) {
+    if (!next_field(rest, dialect, field))
+      throw Error(fmt::format("{}:{}: {} values instead of {} (cut short?)", path, row.line, c, roles.size()));
+    if (roles[c] != Role::none && !parse_field(field, dialect, to[c]))
+      throw Error(fmt::format("{}:{}: {} is not a number", path, row.line, quote(field)));
   }
-  if (const std::string_view token = next_token(rest); !token.empty())
-    throw Error(fmt::format("{}:{}: more than {} values: {} follows", path, row.line, width, quote(token)));
+  while (next_field(rest, dialect, field))
+    if (!field.empty())
+      throw Error(fmt::format("{}:{}: more than {} values: {} follows", path, row.line, roles.size(), quote(field)));
 }
 
 }  // namespace atrium::io

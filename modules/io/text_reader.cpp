@@ -2,6 +2,7 @@
 
 #include "graph/api/error.hpp"
 #include "modules/io/lines.hpp"
+#include "modules/io/row_source.hpp"
 #include "modules/io/text_layout.hpp"
 
 namespace atrium::io {
@@ -11,14 +12,20 @@ RawGeometry read_text(const std::shared_ptr<const MappedFile>& file, const Conte
     throw Error(file->path() + ": not a text file (it has zero bytes)");
   std::string_view text = file->text();
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark, as spreadsheets write it
-  const Lines lines(text, 1, true, context);
+  Lines lines(text, 1, true, context);
   const TextLayout layout = text_layout(file->path(), text, lines, context);
   RawGeometry geometry;
   geometry.path = file->path();
+  if (!layout.scans.empty()) {
+    for (const auto& scan : layout.scans) geometry.count += scan.rows;
+    geometry.source =
+        std::make_shared<const RowSource>(file, std::move(lines), layout.dialect, layout.roles, layout.scans);
+    return geometry;
+  }
   geometry.count = lines.rows() - layout.first_row;
   auto table = std::make_shared<Table>(geometry.count, layout.roles);
   lines.for_rows(layout.first_row, lines.rows(), context, [&](std::size_t, const Row& row) {
-    read_numbers(file->path(), row, layout.roles.size(), table->row(row.index - layout.first_row));
+    read_numbers(file->path(), row, layout.dialect, layout.roles, table->row(row.index - layout.first_row));
   });
   Table::attach(std::move(table), geometry);
   return geometry;

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <optional>
 
 #include "modules/io/cloud_columns.hpp"
+#include "modules/io/e57_writer.hpp"
+#include "modules/io/las_writer.hpp"
 #include "modules/io/paths.hpp"
 
 namespace atrium::io {
@@ -85,28 +88,45 @@ void write_text(const Cloud& cloud, char separator, ByteBuffer& out) {
   write_lines(columns, cloud.size(), separator, out);
 }
 
+void write_columns(const Cloud& cloud, const std::string& extension, bool binary, AtomicFile& file) {
+  ByteBuffer out(file);
+  if (extension == ".ply")
+    write_cloud_ply(cloud, binary, out);
+  else if (extension == ".pcd")
+    write_pcd(cloud, binary, out);
+  else
+    write_text(cloud, extension == ".csv" ? ',' : ' ', out);
+  out.flush();
+}
+
 }  // namespace
 
 WriteCloud::Out WriteCloud::run(const In& in, const Params& params, Context& context) {
   const Cloud& cloud = *in.cloud;
   const std::string extension = extension_of(params.path.path);
   const bool text = extension == ".xyz" || extension == ".txt" || extension == ".csv";
-  if (!text && extension != ".ply" && extension != ".pcd")
-    throw Error("cannot write a cloud as '" + params.path.path + "'", "known extensions: .ply, .pcd, .xyz, .txt, .csv");
+  const bool las = extension == ".las" || extension == ".laz";
+  if (!text && !las && extension != ".ply" && extension != ".pcd" && extension != ".e57")
+    throw Error("cannot write a cloud as '" + params.path.path + "'",
+                "known extensions: .ply, .pcd, .e57, .las, .laz, .xyz, .txt, .csv");
   if (cloud.points.empty()) context.warn("the cloud is empty: " + params.path.path + " has no points");
-  if ((extension != ".ply" && cloud.sensors.size() > 1) || (text && !cloud.sensors.empty()))
+  const bool several = extension == ".ply" || extension == ".e57";
+  if ((!several && cloud.sensors.size() > 1) || ((text || las) && !cloud.sensors.empty()))
     context.warn(fmt::format("{}: the places of the {} sensors are not kept by this format", params.path.path,
                              cloud.sensors.size()));
+  const bool names_crs = (las || extension == ".e57") && !cloud.crs.empty();
+  const std::string crs = names_crs && std::abs(cloud.unit - 1) < 1e-9 ? cloud.crs : std::string();
+  if (names_crs && crs.empty())
+    context.warn(fmt::format("{}: the reference system is not written: its unit is {:.7g} m, and the file is in metres",
+                             params.path.path, cloud.unit));
   const auto target = context.output(params.path.path);
   AtomicFile file(target);
-  ByteBuffer out(file);
-  if (extension == ".ply")
-    write_cloud_ply(cloud, params.binary, out);
-  else if (extension == ".pcd")
-    write_pcd(cloud, params.binary, out);
+  if (extension == ".e57")
+    write_e57(cloud, crs, file);
+  else if (las)
+    write_las(cloud, crs, params.path.path, extension == ".laz", file, context);
   else
-    write_text(cloud, extension == ".csv" ? ',' : ' ', out);
-  out.flush();
+    write_columns(cloud, extension, params.binary, file);
   file.commit();
   context.wrote(target);
   return {};

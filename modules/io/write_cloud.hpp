@@ -5,14 +5,20 @@
 namespace atrium::io {
 
 /// Writes a cloud in true coordinates (its origin added) with all of its columns, in the format that the path's
-/// extension names: .ply and .pcd (binary or ascii), .xyz and .txt (blanks), .csv (commas); the last three begin with a
-/// line of column names.
+/// extension names: .ply and .pcd (binary or ascii), .e57, .las, .laz, .xyz and .txt (blanks), .csv (commas); the last
+/// three begin with a line of column names.
 ///
 /// Coordinates are float32 while the cloud's origin is 0, else double, so that georeferenced clouds keep their
 /// millimetres (PCL's loaders want float32 in PCD). Colours are red, green, blue bytes (PCD: packed `rgb`), labels
 /// int32, `source` ushort. One sensor is written as PCD's VIEWPOINT or PLY's element `camera`; several as PLY's element
 /// `sensor` (double x, y, z) after the vertices, of which each vertex's `source` is the index: io.read_scan reads them
-/// back, other programs pass over them. In PCD several, and in text any sensors' places are not kept, with a warning.
+/// back, other programs pass over them. In PCD several, and in text, LAS and LAZ any sensors' places are not kept, with
+/// a warning.
+///
+/// E57: a scan for each sensor, with its place as the scan's pose, so that the points come in the order of sensors.
+/// LAS, LAZ: steps of 0.1 mm; labels 0 to 255 (LAZ: 31) as classification; intensities of 0 to 1 as 0 to 65535; no
+/// normals; a warning for what is not kept. The cloud's reference system is written to these three, as WKT or GeoTIFF
+/// keys, where its unit is the metre.
 ///
 /// Errors: unknown extension, a folder that cannot be written; then no file is there. An empty cloud gives a valid file
 /// without points, and a warning.
@@ -31,7 +37,8 @@ struct WriteCloud {
   static constexpr auto outputs = std::tuple{};
   static constexpr auto params =
       std::tuple{param(&Params::path, "path",
-                       "The file, in the run's folder; its extension is the format: .ply, .pcd, .xyz, .txt, .csv."),
+                       "The file, in the run's folder; its extension is the format: .ply, .pcd, .e57, .las, .laz, "
+                       ".xyz, .txt, .csv."),
                  param(&Params::binary, "binary", "Binary where the format has both kinds (.ply, .pcd); else text.")};
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -38,11 +38,12 @@ struct File {
   std::string path;
 };
 
-void read(benchmark::State& state, const std::string& extension, bool binary, bool columns) {
+void read(benchmark::State& state, const std::string& extension, bool binary, bool columns, double voxel = 0) {
   const File file(static_cast<std::size_t>(state.range(0)), extension, binary, columns);
   atrium::Context context;
   atrium::io::ReadScan::Params params;
   params.path.path = file.path;
+  params.voxel = voxel;
   for (auto _ : state) benchmark::DoNotOptimize(atrium::io::ReadScan::run({}, params, context));
   state.SetItemsProcessed(state.iterations() * state.range(0));
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(std::filesystem::file_size(file.path)));
@@ -57,3 +58,10 @@ BENCHMARK_CAPTURE(read, ply_binary_xyz_normal_rgb, ".ply", true, true)->SIZES;
 BENCHMARK_CAPTURE(read, pcd_binary_xyz_normal_rgb, ".pcd", true, true)->SIZES;
 BENCHMARK_CAPTURE(read, ply_ascii_xyz, ".ply", false, false)->SIZES;
 BENCHMARK_CAPTURE(read, text_xyz_normal_rgb, ".xyz", false, true)->SIZES;
+BENCHMARK_CAPTURE(read, e57_xyz, ".e57", true, false)->SIZES;
+BENCHMARK_CAPTURE(read, e57_xyz_normal_rgb, ".e57", true, true)->SIZES;
+BENCHMARK_CAPTURE(read, e57_xyz_thinned_to_2_cm, ".e57", true, false, 0.02)->SIZES;
+BENCHMARK_CAPTURE(read, las_xyz, ".las", true, false)->SIZES;
+BENCHMARK_CAPTURE(read, las_xyz_rgb, ".las", true, true)->SIZES;
+BENCHMARK_CAPTURE(read, laz_xyz, ".laz", true, false)->SIZES;
+BENCHMARK_CAPTURE(read, laz_xyz_rgb, ".laz", true, true)->SIZES;

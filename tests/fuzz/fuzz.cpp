@@ -1,6 +1,6 @@
 // libFuzzer's entry: the environment's ATRIUM_FUZZ names the target (targets.hpp). A finding is a crash, whatever a
 // sanitizer says, an exception that the target does not expect, more than a second of CPU time, or more memory than 20
-// times the input and what is needed for any input.
+// times the input and what is needed for any input (of packed formats: what targets() says).
 #include <sanitizer/allocator_interface.h>
 #include <unistd.h>
 
@@ -17,7 +17,6 @@ namespace atrium::fuzz {
 namespace {
 
 constexpr std::size_t memory_for_any_input = std::size_t{4} << 20U;
-constexpr std::size_t memory_per_byte = 20;
 constexpr double most_seconds = 1;
 
 std::atomic<std::size_t> allowed = 0;  ///< 0: nothing is counted
@@ -63,12 +62,21 @@ const Target& chosen() {
 }  // namespace
 
 const std::vector<Target>& targets() {
-  static const std::vector<Target> all{{"ply", read_ply},          {"pcd", read_pcd},
-                                       {"obj", read_obj},          {"stl", read_stl},
-                                       {"text", read_text_cloud},  {"vg", read_vg},
-                                       {"bvg", read_bvg},          {"building", read_building},
-                                       {"layout", read_layout},    {"pipeline", check_pipeline},
-                                       {"sweep", plan_sweep_file}, {"record", read_cache_record},
+  static const std::vector<Target> all{{"ply", read_ply},
+                                       {"pcd", read_pcd},
+                                       {"obj", read_obj},
+                                       {"stl", read_stl},
+                                       {"e57", read_e57, 60},
+                                       {"las", read_las, 3000},
+                                       {"ptx", read_ptx, 40},
+                                       {"text", read_text_cloud},
+                                       {"vg", read_vg},
+                                       {"bvg", read_bvg},
+                                       {"building", read_building},
+                                       {"layout", read_layout},
+                                       {"pipeline", check_pipeline},
+                                       {"sweep", plan_sweep_file},
+                                       {"record", read_cache_record},
                                        {"blob", read_cache_blob}};
   return all;
 }
@@ -110,7 +118,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static bool warm = false;  // what is made once, by the first input, belongs to none
   const double start = cpu_seconds();
   in_use = 0;
-  allowed = warm ? memory_for_any_input + memory_per_byte * size : 0;
+  allowed = warm ? memory_for_any_input + target.memory_per_byte * size : 0;
   target.run({reinterpret_cast<const char*>(data), size});
   allowed = 0;
   if (warm && cpu_seconds() - start > most_seconds) finding("the input takes more than a second");

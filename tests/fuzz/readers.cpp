@@ -7,6 +7,7 @@
 #include "modules/io/read_scan.hpp"
 #include "modules/io/read_vg.hpp"
 #include "tests/fuzz/targets.hpp"
+#include "tests/support/e57_builder.hpp"
 
 namespace atrium::fuzz {
 namespace {
@@ -26,8 +27,9 @@ void read(F&& reader) {
 void check(const Cloud& cloud) {
   for (const auto& point : cloud.points) require(point.allFinite());
   for (const std::size_t size :
-       {cloud.normals.size(), cloud.colours.size(), cloud.intensities.size(), cloud.labels.size()})
+       {cloud.normals.size(), cloud.colours.size(), cloud.intensities.size(), cloud.labels.size(), cloud.source.size()})
     require(size == 0 || size == cloud.size());
+  for (const auto source : cloud.source) require(source < cloud.sensors.size());
 }
 
 void check(const Mesh& mesh) {
@@ -81,6 +83,12 @@ void read_obj(std::string_view bytes) { read_scan_and_mesh("fuzz.obj", bytes); }
 void read_stl(std::string_view bytes) { read_scan_and_mesh("fuzz.stl", bytes); }
 void read_vg(std::string_view bytes) { read_groups("fuzz.vg", bytes); }
 void read_bvg(std::string_view bytes) { read_groups("fuzz.bvg", bytes); }
+
+void read_las(std::string_view bytes) { read_scan(put("fuzz.las", bytes), bytes.size()); }
+void read_ptx(std::string_view bytes) { read_scan(put("fuzz.ptx", bytes), bytes.size()); }
+void read_e57(std::string_view bytes) {
+  read_scan(put("fuzz.e57", test::E57Builder::paged(std::string(bytes))), bytes.size());
+}
 
 void read_text_cloud(std::string_view bytes) {
   static const char* const names[] = {"fuzz.xyz", "fuzz.txt",  "fuzz.pts",   "fuzz.csv",

@@ -19,6 +19,7 @@
 #include "modules/types/simulated_scene.hpp"
 #include "modules/types/textures.hpp"
 #include "tests/support/box_building.hpp"
+#include "tests/support/e57_builder.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace atrium {
@@ -84,6 +85,41 @@ GroundTruth some_truth() {
   return truth;
 }
 
+/// An E57 file without the checksums of its pages.
+std::string without_checksums(const std::string& file) {
+  std::string content;
+  for (std::size_t page = 0; page < file.size(); page += 1024) content += file.substr(page, 1020);
+  return content.substr(0, content.find_last_not_of('\0') + 1);
+}
+
+/// What scanners write.
+void write_scans() {
+  const test::TemporaryFolder folder;
+  Context aside(1, std::make_shared<Host>(folder.path()));
+  Cloud cloud = some_cloud();
+  io::WriteCloud::run({input(cloud)}, {{"one.e57"}, true}, aside);
+  cloud.sensors.emplace_back(0, 1, 2);
+  for (std::uint16_t i = 0; i < 6; ++i) cloud.source.push_back(i / 3);
+  io::WriteCloud::run({input(cloud)}, {{"two.e57"}, true}, aside);
+  for (const std::string name : {"one.e57", "two.e57"})
+    write("e57", name, without_checksums(test::read_text(folder / name)));
+  const test::E57TestScan spherical{
+      {test::f64("sphericalRange", {1, 2, 3, 4}), test::f32("sphericalAzimuth", {0, 1, 2, 3}),
+       test::integers("sphericalElevation", -9, 9, {0, 1, 2, 9}, "scale=\"0.1\""),
+       test::integers("sphericalInvalidState", 0, 2, {0, 0, 0, 1})},
+      "<colorLimits/>"};
+  write("e57", "spherical.e57", without_checksums(test::E57Builder().add(spherical).file()));
+  for (const std::string name : {"cloud.las", "cloud.laz"}) {
+    cloud.crs = name == "cloud.las" ? "PROJCS[\"p\",UNIT[\"metre\",1]]" : "EPSG:25832";
+    io::WriteCloud::run({input(cloud)}, {{name}, true}, aside);
+    write("las", name, test::read_text(folder / name));
+  }
+  write("ptx", "two.ptx",
+        "2\n2\n1 2 3\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 2 3 1\n1 0 0 0.5 1 2 3\n0 0 0 0.5 0 0 0\n"
+        "0 1 0 0.5 9 9 9\n1 1 0 0.5 7 7 7\n1\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n5 5 5 1\n"
+        "2 2 2 1 1 1 1\n");
+}
+
 void write_files() {
   const auto cloud = input(some_cloud());
   const auto mesh = input(some_mesh());
@@ -97,6 +133,7 @@ void write_files() {
     io::WriteMesh::run({mesh}, {{"mesh." + format}, true}, context);
     if (format != "obj") io::WriteMesh::run({mesh}, {{"mesh_text." + format}, false}, context);
   }
+  write_scans();
   const test::TemporaryFolder folder;
   Context aside(1, std::make_shared<Host>(folder.path()));
   char choice = 0;  // of tests/fuzz/readers.cpp
@@ -108,6 +145,9 @@ void write_files() {
   write("text", "cloud.pts",
         "\2"
         "3\n0 0 0 12 255 0 7\n1 0 0 -3 1 2 3\n0 1 0.5 0 9 9 9\n");
+  write("text", "several.pts",
+        "\2"
+        "2\n0 0 0 12\n1 0 0 -3\n1\n0 1 0.5 0\n");
   PlanePrimitive plane;
   plane.plane.normal = {0, 0, 1};
   plane.plane.offset = -1;

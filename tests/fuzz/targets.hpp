@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <filesystem>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@ namespace atrium::fuzz {
 struct Target {
   std::string_view name;
   void (*run)(std::string_view bytes);
+  std::size_t memory_per_byte = 20;  ///< that an input's size justifies
 };
 const std::vector<Target>& targets();
 
@@ -22,6 +24,9 @@ void read_ply(std::string_view bytes);
 void read_pcd(std::string_view bytes);
 void read_obj(std::string_view bytes);
 void read_stl(std::string_view bytes);
+void read_e57(std::string_view bytes);  ///< without the pages' checksums, which are added
+void read_las(std::string_view bytes);  ///< LAZ as well
+void read_ptx(std::string_view bytes);
 void read_text_cloud(std::string_view bytes);  ///< the first byte chooses the extension
 void read_vg(std::string_view bytes);
 void read_bvg(std::string_view bytes);

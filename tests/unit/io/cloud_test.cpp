@@ -37,7 +37,7 @@ Cloud sample(std::size_t n, unsigned columns, const Eigen::Vector3d& origin = Ei
 TEST_F(CloudFiles, EveryFormatGivesTheSameColumnsBack) {
   for (unsigned columns = 0; columns < 16; ++columns) {
     const Cloud cloud = sample(57, columns);
-    for (const std::string name : {"c.ply", "c.pcd", "c.xyz", "c.txt", "c.csv"}) {
+    for (const std::string name : {"c.ply", "c.pcd", "c.e57", "c.xyz", "c.txt", "c.csv"}) {
       for (const bool binary : {false, true}) {
         SCOPED_TRACE(name + (binary ? " binary " : " text ") + std::to_string(columns));
         const Cloud back = round_trip(cloud, name, binary);
@@ -56,7 +56,7 @@ TEST_F(CloudFiles, EveryFormatGivesTheSameColumnsBack) {
 
 TEST_F(CloudFiles, GeoreferencedCloudsKeepTheirMillimetres) {
   const Cloud cloud = sample(100, 0, {500000, 5400000, 0});
-  for (const std::string name : {"c.ply", "c.pcd", "c.xyz", "c.csv"}) {
+  for (const std::string name : {"c.ply", "c.pcd", "c.e57", "c.xyz", "c.csv"}) {
     for (const bool binary : {false, true}) {
       const Cloud back = round_trip(cloud, name, binary);
       double worst = 0;
@@ -72,7 +72,7 @@ TEST_F(CloudFiles, GeoreferencedCloudsKeepTheirMillimetres) {
 TEST_F(CloudFiles, KeepsOneSensorAndSaysWhenItCannot) {
   Cloud cloud = sample(5, 0, {500000, 5400000, 0});
   cloud.sensors = {{1, 2, 3}};
-  for (const std::string name : {"c.ply", "c.pcd"}) {
+  for (const std::string name : {"c.ply", "c.pcd", "c.e57"}) {
     for (const bool binary : {false, true}) {
       const Cloud back = round_trip(cloud, name, binary);
       ASSERT_EQ(back.sensors.size(), 1U) << name;
@@ -139,13 +139,13 @@ TEST_F(CloudFiles, SensorsThatMakeNoSenseAreRefusedAndThoseOfOthersSkipped) {
 }
 
 TEST_F(CloudFiles, AnEmptyCloudIsAValidFileWithAWarning) {
-  for (const std::string name : {"e.ply", "e.pcd", "e.csv"}) {
+  for (const std::string name : {"e.ply", "e.pcd", "e.e57", "e.las", "e.laz", "e.csv"}) {
     host->warnings.clear();
     WriteCloud::run({input(Cloud{})}, {{name}, true}, context);
     EXPECT_TRUE(warned("the cloud is empty"));
     EXPECT_TRUE(std::filesystem::exists(path(name)));
   }
-  EXPECT_CONTAINS(error_of([&] { WriteCloud::run({input(Cloud{})}, {{"e.las"}, true}, context); }), "e.las");
+  EXPECT_CONTAINS(error_of([&] { WriteCloud::run({input(Cloud{})}, {{"e.rcp"}, true}, context); }), "e.rcp");
 }
 
 }  // namespace

@@ -301,5 +301,27 @@ TEST_F(Ply, RefusesABrokenMeshAndLeavesNoFile) {
   EXPECT_TRUE(std::filesystem::is_empty(folder));
 }
 
+TEST_F(Ply, SaysWhatFloat32LostFarFromZero) {
+  const auto written = [&](const std::string& type, double y) {
+    std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex 9\n";
+    for (const char axis : {'x', 'y', 'z'}) bytes += "property " + type + " " + axis + "\n";
+    bytes += "end_header\n";
+    for (int i = 0; i < 9; ++i)
+      for (const double v : {500000.0 + i, y + 0.5 * i, 0.25 * i}) {
+        if (type == "float")
+          put(bytes, static_cast<float>(v));
+        else
+          put(bytes, v);
+      }
+    host->warnings.clear();
+    file("far.ply", bytes);
+    read("far.ply");
+    return warnings();
+  };
+  EXPECT_CONTAINS(written("float", 5'400'000), "far.ply: coordinates along y are in steps of 0.5 m, as float32");
+  EXPECT_CONTAINS(written("float", 0), "coordinates along x are in steps of 0.031 m");
+  EXPECT_EQ(written("double", 5'400'000), "");
+}
+
 }  // namespace
 }  // namespace atrium::io::ply_test

@@ -1,0 +1,21 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace atrium::io {
+
+/// What a file says of its coordinate reference system.
+struct Crs {
+  std::string text;              ///< as Cloud::crs
+  std::optional<double> metres;  ///< per unit of x and y, if it is said
+  bool degrees = false;          ///< longitude and latitude: no lengths
+};
+
+/// Of WKT 1 or 2.
+Crs crs_of_wkt(std::string_view wkt);
+/// Of the directory of GeoTIFF keys (LAS record 34735). Keys that are not understood are passed over.
+Crs crs_of_geotiff(const std::byte* keys, std::size_t size);
+
+}  // namespace atrium::io

@@ -1,0 +1,54 @@
+#include "modules/io/row_source.hpp"
+
+#include <algorithm>
+
+#include "modules/io/text_layout.hpp"
+
+namespace atrium::io {
+
+RowSource::RowSource(std::shared_ptr<const MappedFile> file, Lines lines, const TextDialect& dialect,
+                     std::vector<Role> roles, std::vector<RowScan> scans, bool places_known)
+    : file_(std::move(file)),
+      lines_(std::move(lines)),
+      dialect_(dialect),
+      columns_(std::move(roles)),
+      scans_(std::move(scans)) {
+  for (const Role role : columns_)
+    if (role != Role::none) provide(role);
+  if (places_known && scans_.size() > 1) provide(Role::source);
+}
+
+void RowSource::read(std::size_t block, PointBlock& to) const {
+  const Lines::Piece& piece = lines_.pieces()[block];
+  to.resize(piece.rows, roles());
+  to.misses = 0;
+  std::vector<double> numbers(columns_.size());
+  std::size_t kept = 0;
+  // The first scan that ends behind the piece's first row.
+  auto scan = std::upper_bound(scans_.begin(), scans_.end(), piece.first_row,
+                               [](std::size_t row, const RowScan& s) { return row < s.first + s.rows; });
+  for (; scan != scans_.end() && scan->first < piece.first_row + piece.rows; ++scan) {
+    const auto number = static_cast<double>(scan - scans_.begin());
+    lines_.rows_of(block, scan->first, scan->first + scan->rows, [&](const Row& row) {
+      read_numbers(file_->path(), row, dialect_, columns_, numbers.data());
+      for (std::size_t c = 0; c < columns_.size(); ++c)
+        if (columns_[c] != Role::none) to.of(columns_[c])[kept] = numbers[c];
+      double &x = to.of(Role::x)[kept], &y = to.of(Role::y)[kept], &z = to.of(Role::z)[kept];
+      if (scan->zeros_are_misses && x == 0 && y == 0 && z == 0) {
+        ++to.misses;
+        return;
+      }
+      if (scan->moved) {
+        const Eigen::Vector3d p = scan->to_file * Eigen::Vector3d(x, y, z);
+        x = p.x();
+        y = p.y();
+        z = p.z();
+      }
+      if (has(Role::source)) to.of(Role::source)[kept] = number;
+      ++kept;
+    });
+  }
+  to.size = kept;
+}
+
+}  // namespace atrium::io

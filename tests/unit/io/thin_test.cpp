@@ -1,0 +1,112 @@
+#include <tbb/task_arena.h>
+
+#include "files.hpp"
+#include "modules/filter/voxel_grid.hpp"
+#include "modules/io/read_scan.hpp"
+#include "modules/io/write_cloud.hpp"
+
+namespace atrium::io {
+namespace {
+
+class Thin : public Files {
+ protected:
+  Cloud read(const std::string& name, double voxel, ReadScan::Unit unit = ReadScan::Unit::metre) {
+    ReadScan::Params params;
+    params.path.path = path(name);
+    params.voxel = voxel;
+    params.unit = unit;
+    return ReadScan::run({}, params, context).cloud;
+  }
+  Cloud gridded(const Cloud& cloud, double size) {
+    return filter::VoxelGrid::run({input(cloud)}, {size}, context).cloud;
+  }
+};
+
+void expect_same(const Cloud& a, const Cloud& b) {
+  EXPECT_EQ(a.origin, b.origin);
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.normals, b.normals);
+  EXPECT_EQ(a.colours, b.colours);
+  EXPECT_EQ(a.intensities, b.intensities);
+  EXPECT_EQ(a.labels, b.labels);
+  EXPECT_EQ(a.source, b.source);
+  EXPECT_EQ(a.sensors, b.sensors);
+  EXPECT_EQ(a.crs, b.crs);
+}
+
+/// The walls of a room, seen from three places.
+Cloud room(std::size_t n) {
+  Cloud cloud;
+  Random random(4);
+  cloud.origin = {500000, 5400000, 0};
+  cloud.sensors = {{1, 2, 1.5F}, {4, 1, 1.5F}, {2, 3, 1.5F}};
+  for (std::size_t i = 0; i < n; ++i) {
+    const double u = random.uniform(-2, 6), v = random.uniform(0, 3), e = 0.01 * random.normal();
+    cloud.points.push_back(i % 3 == 0   ? Eigen::Vector3f(u, e, v)
+                           : i % 3 == 1 ? Eigen::Vector3f(e, u, v)
+                                        : Eigen::Vector3f(u, v, e));
+    cloud.normals.push_back(Eigen::Vector3f(random.normal(), random.normal(), random.normal()).normalized());
+    cloud.colours.push_back({static_cast<std::uint8_t>(random.index(256)), static_cast<std::uint8_t>(i % 256), 9});
+    cloud.intensities.push_back(static_cast<float>(random.index(60000)));
+    cloud.labels.push_back(static_cast<std::int32_t>(random.index(5)));
+    cloud.source.push_back(static_cast<std::uint16_t>(3 * i / n));
+  }
+  return cloud;
+}
+
+TEST_F(Thin, GivesWhatTheVoxelGridGives) {
+  const Cloud cloud = room(30'000);
+  for (const std::string name : {"a.e57", "a.ply", "a.las", "a.laz", "a.pcd", "a.csv"}) {
+    SCOPED_TRACE(name);
+    WriteCloud::run({input(cloud)}, {{name}, true}, context);
+    const Cloud whole = read(name, 0);
+    EXPECT_EQ(whole.size(), cloud.size());
+    for (const double size : {0.02, 0.15}) {
+      const Cloud thin = read(name, size);
+      EXPECT_LT(thin.size(), whole.size());
+      expect_same(thin, gridded(whole, size));
+    }
+  }
+}
+
+TEST_F(Thin, GivesTheSameBytesWithAnyNumberOfThreads) {
+  WriteCloud::run({input(room(40'000))}, {{"a.e57"}, true}, context);
+  Cloud one, four;
+  tbb::task_arena(1).execute([&] { one = read("a.e57", 0.1); });
+  tbb::task_arena(4).execute([&] { four = read("a.e57", 0.1); });
+  expect_same(one, four);
+}
+
+TEST_F(Thin, KeepsWildPointsAndRefusesMany) {
+  Cloud cloud = room(2000);
+  for (int i = 0; i < 3; ++i) {
+    const auto at = static_cast<std::size_t>(500 * i + 7);
+    cloud.points[at] = Eigen::Vector3f(0, 0, 200'000);
+  }
+  WriteCloud::run({input(cloud)}, {{"a.ply"}, true}, context);
+  const Cloud thin = read("a.ply", 0.1);
+  EXPECT_TRUE(warned("3 points lie more than")) << warnings();
+  EXPECT_EQ(thin.points.back().z(), 200'000);
+  EXPECT_EQ(thin.points[thin.size() - 3].z(), 200'000);
+  EXPECT_LT(thin.points[thin.size() - 4].z(), 4);
+  EXPECT_EQ(thin.colours.back(), cloud.colours[1007]);
+  EXPECT_CONTAINS(error_of([&] { read("a.ply", 1e-6); }), "too far for voxels of 1e-06 m");
+}
+
+TEST_F(Thin, TheVoxelIsInMetresOfTheCloud) {
+  Cloud cloud = room(30'000);
+  cloud.origin = {0, 0, 0};
+  cloud.sensors.clear();
+  cloud.source.clear();
+  for (auto& p : cloud.points) p *= 1000;  // millimetres
+  WriteCloud::run({input(cloud)}, {{"a.ply"}, true}, context);
+  const Cloud thin = read("a.ply", 0.2, ReadScan::Unit::millimetre);
+  expect_same(thin, gridded(read("a.ply", 0, ReadScan::Unit::millimetre), 0.2));
+  const Cloud guessed = read("a.ply", 0.2, ReadScan::Unit::automatic);
+  EXPECT_EQ(guessed.unit, 0.001) << warnings();
+  EXPECT_EQ(guessed.points, thin.points);
+}
+
+}  // namespace
+}  // namespace atrium::io
