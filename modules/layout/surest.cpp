@@ -15,6 +15,7 @@ struct Judgement {
   double confidence = 0;  ///< 0: no building
   double observed = 0;    ///< square metres of its faces that points lie on
   std::size_t rooms = 0;
+  double confirmed() const { return confidence * observed; }
 };
 
 double area_of(const Building& building, const BuildingFace& face) {
@@ -52,15 +53,13 @@ Surest::Out Surest::run(const In& in, const Params& params, Context& context) {
     throw Error("the two proposals are made from different planes", "wire both to the node that makes the planes");
   const Judgement first = judge(in.cells, in.structure, context);
   const Judgement other = judge(in.other_cells, in.other_structure, context);
-  const bool surer = other.confidence > first.confidence + params.margin;
-  const bool explains = other.confidence > 0 && other.confidence >= first.confidence - params.margin &&
-                        other.observed > (1 + params.explains) * first.observed;
+  const bool better = other.confirmed() > (1 + params.margin) * first.confirmed();
   const auto say = [](const Judgement& j) {
     return fmt::format("{} rooms, confidence {:.2f}, {:.1f} m2 of faces observed", j.rooms, j.confidence, j.observed);
   };
-  context.info(fmt::format("the {} proposal: first: {}; other: {}", surer || explains ? "other" : "first", say(first),
-                           say(other)));
-  if (surer || explains) return {in.other_cells, in.other_structure};
+  context.info(
+      fmt::format("the {} proposal: first: {}; other: {}", better ? "other" : "first", say(first), say(other)));
+  if (better) return {in.other_cells, in.other_structure};
   return {in.cells, in.structure};
 }
 

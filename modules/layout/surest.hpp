@@ -7,10 +7,10 @@ namespace atrium::layout {
 
 /// Of two proposals of rooms for one scan hands on the one that the scan confirms better.
 ///
-/// Both are made into rooms (layout.faces) and judged (layout.confidence, without openings). The other proposal is
-/// taken if its building is surer by more than `margin`; or if it is as sure and its faces have more observed area by
-/// more than `explains`: a vault that a flat ceiling cuts off. Else, and where neither is a building, the first one is
-/// handed on as it is.
+/// Both are made into rooms (layout.faces) and judged (layout.confidence, without openings). What counts is how much of
+/// the scan a proposal explains, and how surely: the building's confidence times the observed area of its faces. The
+/// other proposal is taken if this is larger by more than `margin`; else, and where neither is a building, the first
+/// one is handed on as it is.
 ///
 /// Both must be made from the same planes. No random numbers. Errors: proposals of different planes. Cost: that of
 /// layout.faces and layout.confidence, twice.
@@ -28,8 +28,7 @@ struct Surest {
     SharedOutput<Structure> structure;
   };
   struct Params {
-    double margin = 0.01;
-    double explains = 0.05;
+    double margin = 0.05;
   };
   static constexpr auto inputs =
       std::tuple{port(&In::cells, "cells", "Cells with room, floor and ceiling: the first proposal."),
@@ -38,10 +37,8 @@ struct Surest {
                  port(&In::other_structure, "other_structure", "Its primitives with class and storey.")};
   static constexpr auto outputs = std::tuple{port(&Out::cells, "cells", "Those of the proposal that is taken."),
                                              port(&Out::structure, "structure", "Its primitives.")};
-  static constexpr auto params =
-      std::tuple{param(&Params::margin, "margin", ratio, within(0, 1), "How much surer the other proposal must be."),
-                 param(&Params::explains, "explains", ratio, within(0, 10),
-                       "How much more observed area an equally sure one must have.")};
+  static constexpr auto params = std::tuple{
+      param(&Params::margin, "margin", ratio, within(0, 10), "By how much the other proposal must be better.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 
