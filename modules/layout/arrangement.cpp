@@ -113,9 +113,11 @@ void Arrangement::cut(std::int32_t id, const Line& line, double begin, double en
     if (meets(cells_[i], line, begin, end)) cut_cell(i, id, line);
 }
 
-void Arrangement::cut_one(std::size_t cell, std::int32_t id, const Line& line) {
+bool Arrangement::cut_one(std::size_t cell, std::int32_t id, const Line& line) {
   constexpr double far = std::numeric_limits<double>::infinity();
+  const std::size_t before = cells_.size();
   if (meets(cells_[cell], line, -far, far)) cut_cell(cell, id, line);
+  return cells_.size() > before;
 }
 
 }  // namespace atrium::layout

@@ -28,8 +28,8 @@ class Arrangement {
   /// Cuts along the line between the places `begin` and `end` (coordinates along line.along()).
   void cut(std::int32_t id, const Line& line, double begin, double end);
 
-  /// Cuts one cell from side to side, if the line passes through it.
-  void cut_one(std::size_t cell, std::int32_t id, const Line& line);
+  /// Cuts one cell from side to side, if the line passes through it; says whether it did.
+  bool cut_one(std::size_t cell, std::int32_t id, const Line& line);
 
   const std::vector<Eigen::Vector2d>& vertices() const { return vertices_; }
   const std::vector<Cell>& cells() const { return cells_; }

@@ -19,6 +19,7 @@ struct Candidate {
   double height = 0, bottom = 0, top = 0, area = 0;
   bool up = false, slanted = false, raised = false;
   double sheltered = 1, covered = 0;
+  Raster filled;  ///< in squares that it fills
 };
 
 class Levels {
@@ -64,21 +65,18 @@ class Levels {
     }
     result.height /= static_cast<double>(primitive.inliers.size());
     // A steep surface is larger than its footprint.
-    result.area = filled(i).area() / std::abs(primitive.plane.normal.z());
+    const Footprint& f = footprints_[i];
+    result.filled = f.raster.coarse(std::max(1, static_cast<int>(std::lround(f.spacing / f.raster.pixel))));
+    result.area = result.filled.area() / std::abs(primitive.plane.normal.z());
     result.up = primitive.plane.normal.z() > 0;
     result.slanted = !is_level(primitive.plane);
     return result;
   }
 
-  Raster filled(std::size_t plane) const {
-    const Footprint& f = footprints_[plane];
-    return f.raster.coarse(std::max(1, static_cast<int>(std::lround(f.spacing / f.raster.pixel))));
-  }
-
   bool is_wide(const Candidate& l) const {
     if (l.slanted) return true;
-    const Raster raster = filled(l.primitive);
-    return raster.has_patch(std::max(limits_.least_width, raster.pixel > pixel_ ? 3 * raster.pixel : 0), 0.75);
+    const double pixel = l.filled.pixel;
+    return l.filled.has_patch(std::max(limits_.least_width, pixel > pixel_ ? 3 * pixel : 0), 0.75);
   }
 
   void find_shelter() {
@@ -103,7 +101,10 @@ class Levels {
   /// The share of a surface that lies over or under another, or within a step of its edge.
   double share_over(const Candidate& a, const Candidate& b) const {
     constexpr double beside = 0.3;  // metres
-    const Raster high = filled(a.primitive), low = filled(b.primitive);
+    const Raster &high = a.filled, &low = b.filled;
+    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(beside + low.pixel);
+    const Eigen::AlignedBox2d around(low.low - margin, low.high() + margin);
+    if (!around.intersects(Eigen::AlignedBox2d(high.low, high.high()))) return 0;
     const int reach = std::max(1, static_cast<int>(std::lround(beside / low.pixel)));
     int all = 0, both = 0;
     for (int y = 0; y < high.height; ++y)
@@ -132,6 +133,7 @@ class Levels {
     if (l.sheltered < least_sheltered || !is_wide(l)) return false;
     if (l.raised) return true;
     return std::none_of(larger.begin(), larger.end(), [&](const Candidate* floor) {
+      if (is_steep(*floor)) return false;
       const double over = l.height - floor->height;
       return over > step_height && over < limits_.clearance && share_over(l, *floor) > much;
     });
@@ -141,7 +143,8 @@ class Levels {
     if (l.up || l.area < limits_.least_area || !is_wide(l)) return false;
     const double top = l.slanted ? l.top : l.height;
     return std::none_of(floors.begin(), floors.end(), [&](const Candidate* floor) {
-      return top > floor->height && top < floor->height + limits_.clearance && share_over(l, *floor) > much;
+      return !is_steep(*floor) && top > floor->height && top < floor->height + limits_.clearance &&
+             share_over(l, *floor) > much;
     });
   }
 
@@ -174,16 +177,17 @@ class Levels {
                       const std::vector<const Candidate*>& floors,
                       const std::vector<const Candidate*>& ceilings) const {
     constexpr double alone = 0.2, together = 0.4, rises = 0.6;  // of the floor; of the height
-    const auto over = [&](const Candidate& a, const std::vector<const Candidate*>& others,
-                          auto better) -> const Candidate* {
-      const Candidate* best = nullptr;
-      for (const Candidate* o : others)
-        if (!o->slanted && share_over(a, *o) > much && (best == nullptr || better(*o, *best))) best = o;
-      return best;
-    };
-    const Candidate* floor = over(l, floors, [](const Candidate& a, const Candidate& b) { return a.area > b.area; });
-    const Candidate* ceiling =
-        over(l, ceilings, [](const Candidate& a, const Candidate& b) { return a.area > b.area; });
+    // The floor below its middle, and the ceiling above it.
+    const double middle = (l.bottom + l.top) / 2;
+    const Candidate *floor = nullptr, *ceiling = nullptr;
+    for (const Candidate* f : floors)
+      if (!f->slanted && f->height <= middle && (floor == nullptr || f->height > floor->height) &&
+          share_over(l, *f) > much)
+        floor = f;
+    for (const Candidate* c : ceilings)
+      if (!c->slanted && c->height >= middle && (ceiling == nullptr || c->height < ceiling->height) &&
+          share_over(l, *c) > much)
+        ceiling = c;
     if (is_steep(l)) {
       const double height = floor != nullptr && ceiling != nullptr && ceiling->height > floor->height
                                 ? ceiling->height - floor->height
@@ -192,7 +196,7 @@ class Levels {
     }
     const Candidate* base = floor != nullptr ? floor : ceiling;
     if (base == nullptr) return true;
-    const auto plan_area = [&](const Candidate& a) { return filled(a.primitive).area(); };
+    const auto plan_area = [](const Candidate& a) { return a.filled.area(); };
     double area = plan_area(l);
     if (area >= alone * base->area) return true;
     for (const Candidate* o : slopes)

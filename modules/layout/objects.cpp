@@ -112,7 +112,10 @@ class Sorting {
     if (face.room < 0) return;
     RoomSpace& room = rooms_[static_cast<std::size_t>(face.room)];
     for (const auto v : face.outline) room.box.extend(building_.vertices[v]);
-    if (face.surface == SurfaceClass::wall) return;
+    // A way up crosses whatever is not upright, walls that lean as well.
+    constexpr double upright = 1e-3;  // sine of the angle; corners of files are rounded
+    const PlaneFrame& frame = faces_.back().frame;
+    if (face.surface == SurfaceClass::wall && std::abs(frame.u.cross(frame.v).z()) < upright) return;
     room.levels.push_back(levels_.size());
     levels_.push_back({{}, faces_.back().frame});
     const auto flat = [&](const std::vector<std::uint32_t>& ring) {

@@ -27,7 +27,8 @@ void take_blank_windows(std::vector<BlankGap> gaps, Found& found, const Context&
   const std::vector<BlankGap> left(closed, gaps.end());
   gaps.erase(closed, gaps.end());
   for (const auto& gap : gaps) found[gap.face].push_back(gap.hole);
-  if (!gaps.empty()) context.info(told(gaps, "windows show nothing behind them: their rims tell them"));
+  if (!gaps.empty())
+    context.warn(told(gaps, "windows show nothing behind them, only a clean rim: screens and mirrors look alike"));
   if (!left.empty())
     context.warn(told(left,
                       "gaps in walls have the size of windows, but nothing was seen behind them: they are left "

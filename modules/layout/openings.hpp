@@ -20,7 +20,7 @@ namespace atrium::layout {
 /// - Panes often show nothing behind them. A gap in an outer wall is a window all the same if nine tenths of each side
 /// of
 ///   its rim were seen, most of it is in sight, it has 0.3 m² or more, and nothing stands up to 0.6 m before it. The
-///   log counts these; gaps that are less clean are left closed, with a warning.
+///   warning counts these, and gaps that are less clean, which are left closed.
 /// - What begins within sill_height over its face's foot, or hides its foot and joins two rooms or has a leaf, is a
 ///   door and reaches the foot; wider than max_door_width it is a passage. One that joins no rooms, shows no leaf and
 ///   has no floor beyond is glazed: a window, as all others are.

@@ -23,12 +23,12 @@ Eigen::AlignedBox2d extent_of(const std::vector<const std::vector<CellSurface>*>
                               const std::vector<WallLine>& walls, const std::vector<Footprint>& footprints) {
   Eigen::AlignedBox2d box;
   for (const auto* surfaces : levels)
-    for (const auto& s : *surfaces) {
-      if (s.primitive < 0) continue;
-      const Raster& r = footprints[static_cast<std::size_t>(s.primitive)].raster;
-      box.extend(r.low);
-      box.extend(r.high());
-    }
+    for (const auto& s : *surfaces)
+      for (const auto p : primitives_of(s)) {
+        const Raster& r = footprints[static_cast<std::size_t>(p)].raster;
+        box.extend(r.low);
+        box.extend(r.high());
+      }
   for (const auto& wall : walls) {
     const Eigen::Vector2d foot = -wall.line.offset * wall.line.normal;
     box.extend(foot + wall.begin * wall.line.along());

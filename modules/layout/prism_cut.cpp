@@ -42,8 +42,7 @@ class PrismEnergy {
   double doubt(std::size_t cell, std::size_t prism) const {
     constexpr double sure = 0.6;
     const PrismStack& stack = space_.stacks[cell];
-    const double shown = std::max(stack.free[prism], stack.on_floor[prism]);
-    return std::min(1.0, (1 - shown) / (1 - sure));
+    return std::min(1.0, (1 - stack.free[prism]) / (1 - sure));
   }
 
   void add_stack(std::size_t c) {

@@ -13,8 +13,9 @@ struct PrismWeights {
 /// Which prisms are inside: per cell and prism. One minimum cut over all prisms of the building.
 ///
 /// - A prism that something was seen through, from a ceiling down to what lies below it, should be inside
-///   (`ceiling` times the area seen through); one over a floor above which nothing was seen as well (`floor`); as far
-///   as nothing was seen through it, it should be outside (`outside`). Prisms that are open above or below are outside.
+///   (`ceiling` times the area seen through); one over a floor, seen through or with nothing seen above it, as well
+///   (`floor`); as far as nothing was seen through it, it should be outside (`outside`). Prisms that are open above or
+///   below are outside.
 /// - Behind a surface that was seen it is outside (`wall` times what was seen), the less the more was seen through what
 ///   lies there. So it is behind walls, and before them it is inside.
 /// - A border between inside and outside costs `smoothness` times its area that nothing shows, and `complexity` times

@@ -7,7 +7,6 @@
 
 #include "modules/layout/cell_map.hpp"
 #include "modules/layout/coverage.hpp"
-#include "modules/layout/surface_reach.hpp"
 
 namespace atrium::layout {
 namespace {
@@ -139,7 +138,6 @@ class StackMeasuring {
         add_place(p, places.at(x, y), stack);
       }
     if (samples == 0) return;
-    stack.measured = true;
     for (auto* values : {&stack.cover, &stack.free, &stack.on_floor})
       for (auto& v : *values) v /= samples;
   }

@@ -1,8 +1,11 @@
 #include "modules/layout/prism_rooms.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -66,8 +69,8 @@ class Slabs {
   };
   /// What lies around a hole.
   struct Rim {
-    double length = 0, slab = 0;
-    std::int32_t floor = -1;  ///< of the room above, on the slab
+    double length = 0;
+    std::map<std::int32_t, double> slabs;  ///< by the floor on them, of the room above: how much of the length
   };
 
   Through through(std::int32_t surface) const {
@@ -102,8 +105,7 @@ class Slabs {
       rim.length += length;
       const std::int32_t over = through.place[b] >= 0 ? floor_over(b, through.place[b]) : -1;
       if (over < 0) continue;
-      rim.slab += length;
-      rim.floor = over;
+      rim.slabs[over] += length;
     }
     return result;
   }
@@ -114,9 +116,18 @@ class Slabs {
     const std::vector<Rim> around = rims(holes);
     for (std::size_t c = 0; c < space_.stacks.size(); ++c) {
       const Rim& rim = around[holes.group[c]];
-      if (!holes.hole[c] || rim.floor < 0 || rim.slab < least_slab * rim.length) continue;
-      const int upper = place_of(c, rim.floor);
-      if (upper <= holes.place[c]) continue;
+      if (!holes.hole[c]) continue;
+      double slab = 0;
+      for (const auto& [floor, length] : rim.slabs) slab += length;
+      if (slab < least_slab * rim.length) continue;
+      int upper = -1;  // the floor on most of the slab that goes on over the cell
+      double most = 0;
+      for (const auto& [floor, length] : rim.slabs)
+        if (const int place = place_of(c, floor); place > holes.place[c] && length > most) {
+          most = length;
+          upper = place;
+        }
+      if (upper < 0) continue;
       for (auto k = static_cast<std::size_t>(holes.place[c]) + 1; k <= static_cast<std::size_t>(upper); ++k)
         inside_[c][k] = false;
     }
@@ -131,14 +142,20 @@ class PrismRoomFinder {
   PrismRoomFinder(const PrismSpace& space, WallCover& walls, Inside inside)
       : space_(space), walls_(walls), inside_(std::move(inside)) {}
 
-  std::vector<StoreyCells> run(const RoomLimits& limits) {
+  std::vector<StoreyCells> run(const RoomLimits& limits, const Context& context) {
     Slabs(space_, inside_).part();
     find_intervals();
     find_contacts();
     find_rooms();
-    std::erase_if(rooms_, [&](const PrismRoom& room) {
-      return room.area < limits.least_area || room.seen < limits.least_cover * room.area;
+    double left_out = 0;
+    const auto dropped = std::erase_if(rooms_, [&](const PrismRoom& room) {
+      const bool drop = room.area < limits.least_area || room.seen < limits.least_cover * room.area;
+      left_out += drop ? room.area : 0;
+      return drop;
     });
+    if (dropped > 0)
+      context.info(
+          fmt::format("{} spaces of {:.1f} m2 in all are too small or hardly seen to be rooms", dropped, left_out));
     std::stable_sort(rooms_.begin(), rooms_.end(),
                      [](const PrismRoom& a, const PrismRoom& b) { return a.area > b.area; });
     return storeys();
@@ -273,11 +290,13 @@ class PrismRoomFinder {
     StoreyCells result = space_.plan;
     result.low = -far;
     result.high = far;
-    double area = 0;
+    double largest = 0;
     for (const auto r : rooms) {
-      area += rooms_[r].area;
-      result.floor_height += rooms_[r].area * rooms_[r].floor;
-      result.ceiling_height += rooms_[r].area * rooms_[r].ceiling;
+      if (rooms_[r].area > largest) {
+        largest = rooms_[r].area;
+        result.floor_height = rooms_[r].floor;
+        result.ceiling_height = rooms_[r].ceiling;
+      }
       for (const auto i : rooms_[r].intervals) {
         const Interval& interval = intervals_[i];
         LayoutCell& cell = result.cells[interval.cell];
@@ -286,8 +305,6 @@ class PrismRoomFinder {
         cell.ceiling = space_.stacks[interval.cell].surfaces[interval.high];
       }
     }
-    result.floor_height /= area;
-    result.ceiling_height /= area;
     return result;
   }
 
@@ -303,8 +320,8 @@ class PrismRoomFinder {
 }  // namespace
 
 std::vector<StoreyCells> prism_rooms(const PrismSpace& space, WallCover& walls, std::vector<std::vector<bool>> inside,
-                                     const RoomLimits& limits) {
-  return PrismRoomFinder(space, walls, std::move(inside)).run(limits);
+                                     const RoomLimits& limits, const Context& context) {
+  return PrismRoomFinder(space, walls, std::move(inside)).run(limits, context);
 }
 
 }  // namespace atrium::layout

@@ -18,8 +18,8 @@ struct RoomLimits {
 /// - A room is what hangs together of intervals through borders of which walls cover less than half, the widest
 ///   first, and never has two intervals over one place: what lies over itself is two rooms.
 /// - Rooms of one storey have floors at similar heights (steps of up to a metre) and do not lie over each other.
-/// Rooms are numbered by falling area, through all storeys.
+/// Rooms are numbered by falling area, through all storeys. The log says what was too small or hardly seen.
 std::vector<StoreyCells> prism_rooms(const PrismSpace& space, WallCover& walls, std::vector<std::vector<bool>> inside,
-                                     const RoomLimits& limits);
+                                     const RoomLimits& limits, const Context& context);
 
 }  // namespace atrium::layout

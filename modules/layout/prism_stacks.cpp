@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "modules/layout/coverage.hpp"
 #include "modules/layout/plan_cells.hpp"
@@ -27,18 +26,19 @@ class StackBuilder {
 
   /// Cuts cells where surfaces cross; their lines are added to `lines`.
   void cut_crossings(Arrangement& arrangement, std::vector<Arrangement::Line>& lines) const {
-    constexpr int most_passes = 6;
+    constexpr int most_passes = 12;
     for (int pass = 0; pass < most_passes; ++pass) {
       StoreyCells plan;
       take_cells(arrangement, plan);
       bool changed = false;
       for (std::size_t c = 0; c < plan.cells.size(); ++c) {
         context_.check_cancelled();
-        const auto line = first_crossing(plan, plan.cells[c]);
-        if (!line) continue;
-        arrangement.cut_one(c, static_cast<std::int32_t>(lines.size()), *line);
-        lines.push_back(*line);
-        changed = true;
+        for (const auto& line : crossings(plan, plan.cells[c])) {
+          if (!arrangement.cut_one(c, static_cast<std::int32_t>(lines.size()), line)) continue;
+          lines.push_back(line);
+          changed = true;
+          break;  // its parts have their turn in the next pass
+        }
       }
       if (!changed) return;
     }
@@ -54,11 +54,19 @@ class StackBuilder {
       std::stable_sort(stack.begin(), stack.end(), [&](std::int32_t a, std::int32_t b) {
         return space_.height(a, middle) < space_.height(b, middle);
       });
+      // A slab without thickness: its ceiling below its floor.
+      constexpr double one_level = 0.02;  // metres
+      for (std::size_t k = 0; k + 1 < stack.size(); ++k)
+        if (looks_up(stack[k]) && !looks_up(stack[k + 1]) &&
+            space_.height(stack[k + 1], middle) - space_.height(stack[k], middle) < one_level)
+          std::swap(stack[k], stack[k + 1]);
     }
   }
 
  private:
   static constexpr double slope_reach = 1;  // metres
+
+  bool looks_up(std::int32_t surface) const { return space_.surfaces[static_cast<std::size_t>(surface)].up; }
 
   /// The surfaces over a cell. Those that were not seen there give way where they would cross another.
   std::vector<std::int32_t> candidates(const StoreyCells& plan, const LayoutCell& cell) const {
@@ -90,8 +98,9 @@ class StackBuilder {
     return least < -slack && most > slack;
   }
 
-  /// The line over which two of a cell's surfaces cross within it.
-  std::optional<Arrangement::Line> first_crossing(const StoreyCells& plan, const LayoutCell& cell) const {
+  /// The lines over which two of a cell's surfaces cross within it.
+  std::vector<Arrangement::Line> crossings(const StoreyCells& plan, const LayoutCell& cell) const {
+    std::vector<Arrangement::Line> result;
     const auto stack = candidates(plan, cell);
     for (std::size_t i = 0; i < stack.size(); ++i)
       for (std::size_t k = i + 1; k < stack.size(); ++k) {
@@ -101,10 +110,9 @@ class StackBuilder {
         const Eigen::Vector2d slope = b.normal.head<2>() / b.normal.z() - a.normal.head<2>() / a.normal.z();
         constexpr double least_slope = 0.02;
         if (slope.norm() < least_slope) continue;
-        return Arrangement::Line{slope.normalized(),
-                                 (b.offset / b.normal.z() - a.offset / a.normal.z()) / slope.norm()};
+        result.push_back({slope.normalized(), (b.offset / b.normal.z() - a.offset / a.normal.z()) / slope.norm()});
       }
-    return {};
+    return result;
   }
 
   PrismSpace& space_;

@@ -14,7 +14,6 @@ struct PrismStack {
   std::vector<double> cover;           ///< per surface: the share of the cell over which it was seen
   std::vector<double> free;            ///< per prism: the share of the cell over which something was seen through it
   std::vector<double> on_floor;        ///< per prism: the share over which its floor was seen, and nothing above
-  bool measured = false;               ///< false: the noise of the walls around the cell fills it
 };
 
 /// A building's space cut in plan into convex cells, each with its stack of prisms. One for all storeys.

@@ -17,9 +17,12 @@ namespace {
 
 constexpr double unbounded = 1e9;
 
-/// Walls of different storeys on nearly one line keep a line each.
+/// Walls of different storeys on nearly one line keep a line each; on one line they share it.
 bool of_other_storeys(const WallLine& a, const WallLine& b) {
-  constexpr double common = 0.3, low_piece = 1.5;  // metres
+  constexpr double common = 0.3, low_piece = 1.5, one_line = 2e-3;  // metres
+  const Eigen::Vector2d foot = -b.line.offset * b.line.normal;
+  const auto off = [&](double t) { return std::abs(a.line.side(foot + t * b.line.along())); };
+  if (std::max(off(b.begin), off(b.end)) <= one_line) return false;
   const double overlap = std::min(a.high, b.high) - std::max(a.low, b.low);
   const bool piece = std::min(a.high - a.low, b.high - b.low) < low_piece;
   return overlap < (piece ? -low_piece : common);
@@ -47,10 +50,11 @@ bool is_far(const WallLine& wall, const std::vector<Eigen::AlignedBox2d>& boxes)
 std::vector<WallLine> walls_of(const PlanePrimitives& planes, const std::vector<Footprint>& footprints,
                                const std::vector<LevelSurface>& surfaces, double pixel, const Prisms::Params& params) {
   std::vector<Eigen::AlignedBox2d> boxes;
-  for (const auto& s : surfaces) {
-    const Raster& r = footprints[static_cast<std::size_t>(s.surface.primitive)].raster;
-    boxes.emplace_back(r.low, r.high());
-  }
+  for (const auto& s : surfaces)
+    for (const auto p : primitives_of(s.surface)) {
+      const Raster& r = footprints[static_cast<std::size_t>(p)].raster;
+      boxes.emplace_back(r.low, r.high());
+    }
   std::vector<WallLine> walls;
   for (std::size_t i = 0; i < planes.primitives.size(); ++i) {
     const Footprint& f = footprints[i];
@@ -113,6 +117,13 @@ Prisms::Out Prisms::run(const In& in, const Params& params, Context& context) {
   if (surfaces.empty())
     throw Error("no plane is level: there is neither floor nor ceiling",
                 "z must point up (align.z_axis before this node)");
+  // What leans and is no surface is an upright wall.
+  std::vector<bool> taken(seen.size(), false);
+  for (const auto& s : surfaces)
+    for (const auto p : primitives_of(s.surface)) taken[static_cast<std::size_t>(p)] = true;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (!taken[i] && !seen[i].upright && is_upright(planes.primitives[i].plane))
+      seen[i] = footprint(planes.primitives[i], *planes.cloud, out.cells.pixel);
   auto walls = walls_of(planes, seen, surfaces, out.cells.pixel, params);
   join_lines(walls, gap, of_other_storeys);
   std::vector<CellSurface> levels;
@@ -127,7 +138,7 @@ Prisms::Out Prisms::run(const In& in, const Params& params, Context& context) {
   auto inside = inside_prisms(space, cover,
                               {params.ceiling_weight, params.floor_weight, params.outside_weight, params.wall_weight,
                                params.smoothness, params.complexity});
-  out.cells.storeys = prism_rooms(space, cover, std::move(inside), {params.min_area, params.min_cover});
+  out.cells.storeys = prism_rooms(space, cover, std::move(inside), {params.min_area, params.min_cover}, context);
   out.structure = structure_of(in, seen, space.surfaces, walls, out.cells.storeys);
   std::size_t prisms = 0;
   for (const auto& stack : space.stacks) prisms += stack.surfaces.size() + 1;

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <memory>
+#include <string>
 
 #include "graph/api/error.hpp"
 #include "modules/layout/confidence.hpp"
@@ -15,6 +18,7 @@ struct Judgement {
   double confidence = 0;  ///< 0: no building
   double observed = 0;    ///< square metres of its faces that points lie on
   std::size_t rooms = 0;
+  std::string refused;  ///< why it is no building
   double confirmed() const { return confidence * observed; }
 };
 
@@ -30,9 +34,27 @@ double area_of(const Building& building, const BuildingFace& face) {
   return area;
 }
 
+/// Whether two sets of planes are one: the same object, or a copy of it.
+bool same_planes(const PlanePrimitives& a, const PlanePrimitives& b) {
+  if (&a == &b) return true;
+  return a.cloud->points == b.cloud->points &&
+         std::equal(a.primitives.begin(), a.primitives.end(), b.primitives.begin(), b.primitives.end(),
+                    [](const PlanePrimitive& p, const PlanePrimitive& q) { return p.inliers == q.inliers; });
+}
+
+/// What is wrong with a proposal that is not taken interests nobody, but the run may end.
+class QuietHost : public ContextHost {
+ public:
+  explicit QuietHost(const Context& context) : context_(context) {}
+  bool cancelled() override { return context_.cancelled(); }
+
+ private:
+  const Context& context_;
+};
+
 Judgement judge(const Input<CellComplex>& cells, const Input<Structure>& structure, const Context& context) {
   context.check_cancelled();
-  Context quiet;  // what is wrong with a proposal that is not taken interests nobody
+  Context quiet(1, std::make_shared<QuietHost>(context));
   Judgement result;
   try {
     auto building = input(Faces::run({cells, structure}, {}, quiet).building);
@@ -40,7 +62,8 @@ Judgement judge(const Input<CellComplex>& cells, const Input<Structure>& structu
     result.confidence = sure.confidence;
     result.rooms = sure.rooms.size();
     for (const auto& face : sure.faces) result.observed += face.observed * area_of(sure, face);
-  } catch (const Error&) {  // no room
+  } catch (const Error& e) {
+    result.refused = e.what();
   }
   return result;
 }
@@ -48,13 +71,13 @@ Judgement judge(const Input<CellComplex>& cells, const Input<Structure>& structu
 }  // namespace
 
 Surest::Out Surest::run(const In& in, const Params& params, Context& context) {
-  if (in.structure->primitives != in.other_structure->primitives &&
-      in.structure->primitives->primitives.size() != in.other_structure->primitives->primitives.size())
+  if (!same_planes(*in.structure->primitives, *in.other_structure->primitives))
     throw Error("the two proposals are made from different planes", "wire both to the node that makes the planes");
   const Judgement first = judge(in.cells, in.structure, context);
   const Judgement other = judge(in.other_cells, in.other_structure, context);
   const bool better = other.confirmed() > (1 + params.margin) * first.confirmed();
   const auto say = [](const Judgement& j) {
+    if (!j.refused.empty()) return j.refused;
     return fmt::format("{} rooms, confidence {:.2f}, {:.1f} m2 of faces observed", j.rooms, j.confidence, j.observed);
   };
   context.info(

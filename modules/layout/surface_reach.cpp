@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "modules/layout/coverage.hpp"
+#include "modules/layout/wall_lines.hpp"
 
 namespace atrium::layout {
 namespace {
@@ -12,12 +13,6 @@ namespace {
 constexpr double reach_square = 0.25;  // metres
 
 }  // namespace
-
-std::vector<std::int32_t> primitives_of(const CellSurface& surface) {
-  std::vector<std::int32_t> result{surface.primitive};
-  result.insert(result.end(), surface.joined.begin(), surface.joined.end());
-  return result;
-}
 
 SurfaceReach::SurfaceReach(const PlanePrimitives& planes, const CellSurface& surface, double reach) {
   Eigen::AlignedBox2d box;

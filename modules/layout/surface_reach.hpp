@@ -6,10 +6,7 @@
 
 namespace atrium::layout {
 
-/// The primitives of a surface: its own and those that joined it.
-std::vector<std::int32_t> primitives_of(const CellSurface& surface);
-
-/// Where a surface was seen, and what lies near, in squares of 0.25 m.
+/// Where a surface was seen, and what lies near (so far in steps along the axes), in squares of 0.25 m.
 class SurfaceReach {
  public:
   /// `reach`: how far from where it was seen a place is near it, metres.

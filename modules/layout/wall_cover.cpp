@@ -19,21 +19,26 @@ double WallCover::operator()(std::size_t edge, std::size_t side, std::size_t pri
   if (prism == 0 || prism >= stack.surfaces.size()) return 0;
   const Eigen::Vector2d middle = (space_.plan.vertices[e.from] + space_.plan.vertices[e.to]) / 2;
   const auto looks_up = [&](std::size_t k) { return space_.surfaces[static_cast<std::size_t>(stack.surfaces[k])].up; };
-  std::size_t top = stack.surfaces.size(), bottom = top;
-  for (std::size_t k = prism; k < stack.surfaces.size(); ++k)
-    if (!looks_up(k) && (stack.cover[k] >= enough)) {
-      top = k;
-      break;
-    }
-  for (std::size_t k = prism; k < stack.surfaces.size() && top == stack.surfaces.size(); ++k)
-    if (!looks_up(k)) top = k;
-  if (top == stack.surfaces.size()) top = prism;
-  for (std::size_t k = prism; k > 0; --k)
-    if (looks_up(k - 1) && stack.cover[k - 1] >= enough) {
-      bottom = k - 1;
-      break;
-    }
-  if (bottom == stack.surfaces.size()) bottom = prism - 1;
+  // Within a slab no wall looks at anything.
+  constexpr double mostly = 0.5;
+  const bool over_ceiling = !looks_up(prism - 1) && stack.cover[prism - 1] >= mostly;
+  if (over_ceiling || (looks_up(prism) && stack.cover[prism] >= mostly)) return 0;
+  // Up to the first ceiling that was seen, or else the first; not past a floor that was seen. And so down.
+  const std::size_t none = stack.surfaces.size();
+  std::size_t top = none, bottom = none, hidden_top = none;
+  for (std::size_t k = prism; k < none && top == none; ++k) {
+    const bool seen = stack.cover[k] >= enough;
+    if (looks_up(k) && seen) break;
+    if (!looks_up(k) && seen) top = k;
+    if (!looks_up(k) && hidden_top == none) hidden_top = k;
+  }
+  if (top == none) top = hidden_top != none ? hidden_top : prism;
+  for (std::size_t k = prism; k > 0 && bottom == none; --k) {
+    const bool seen = stack.cover[k - 1] >= enough;
+    if (!looks_up(k - 1) && seen) break;
+    if (looks_up(k - 1) && seen) bottom = k - 1;
+  }
+  if (bottom == none) bottom = prism - 1;
   const double floor = space_.height(stack.surfaces[bottom], middle);
   const double ceiling = space_.height(stack.surfaces[top], middle);
   auto& known = known_[edge][side];

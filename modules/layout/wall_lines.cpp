@@ -43,8 +43,10 @@ std::optional<WallLine> meeting_line(const CellSurface& a, const CellSurface& b,
   meeting.line.normal = slope.normalized();
   meeting.line.offset = (b.plane.offset / b.plane.normal.z() - a.plane.offset / a.plane.normal.z()) / slope.norm();
   std::map<int, int> seen;  // along the line: 1 by a, 2 by b
-  mark(footprints[static_cast<std::size_t>(a.primitive)].raster, meeting.line, step, 1, seen);
-  mark(footprints[static_cast<std::size_t>(b.primitive)].raster, meeting.line, step, 2, seen);
+  for (const auto p : primitives_of(a))
+    mark(footprints[static_cast<std::size_t>(p)].raster, meeting.line, step, 1, seen);
+  for (const auto p : primitives_of(b))
+    mark(footprints[static_cast<std::size_t>(p)].raster, meeting.line, step, 2, seen);
   int both = 0, first = 0, last = 0;
   for (const auto& [place, sides] : seen) {
     if (sides != 3) continue;
@@ -58,6 +60,12 @@ std::optional<WallLine> meeting_line(const CellSurface& a, const CellSurface& b,
 }
 
 }  // namespace
+
+std::vector<std::int32_t> primitives_of(const CellSurface& surface) {
+  std::vector<std::int32_t> result = surface.joined;
+  if (surface.primitive >= 0) result.insert(result.begin(), surface.primitive);
+  return result;
+}
 
 std::optional<WallLine> wall_line(const PlanePrimitives& planes, std::size_t primitive, const Footprint& footprint,
                                   double bottom, double top) {

@@ -18,6 +18,9 @@ struct WallLine {
   std::vector<std::int32_t> primitives;
 };
 
+/// The primitives of a surface: its own, if it was seen, and those that joined it.
+std::vector<std::int32_t> primitives_of(const CellSurface& surface);
+
 /// A wall as a line, as far as it lies between two heights; none if less than 0.3 m of its height does. `low` and
 /// `high` of the result are its lowest and highest rows that are about as full as others.
 std::optional<WallLine> wall_line(const PlanePrimitives& planes, std::size_t primitive, const Footprint& footprint,

@@ -44,8 +44,9 @@ TEST_F(Quickstart, SaysWhatItFoundAndWhereItIs) {
   ASSERT_GE(lines.size(), 3U) << result.out;
   EXPECT_TRUE(lines[1].starts_with("1 closed rooms of ")) << lines[1];
   EXPECT_EQ(lines[1].find("  "), std::string::npos) << "a number is missing: " << lines[1];
-  for (const char* file : {"building.json", "building.ifc", "rooms.csv", "floorplan.svg", "floorplan.dxf", "floorplan.geojson", "shell.ply",
-                           "structure.ply", "scene.glb", "scene.ply", "scene_without_ceiling.ply"}) {
+  for (const char* file :
+       {"building.json", "building.ifc", "rooms.csv", "floorplan.svg", "floorplan.dxf", "floorplan.geojson",
+        "shell.ply", "structure.ply", "scene.glb", "scene.ply", "scene_without_ceiling.ply"}) {
     EXPECT_NE(result.out.find(fs::path(file).extension()), std::string::npos) << file;
     EXPECT_TRUE(fs::exists(checkout / "runs/scan-scan" / file)) << file;
   }

@@ -70,7 +70,7 @@ TEST(Prisms, SplitLevelsAreRoomsOfTheirOwn) {
   add_room(scene, 5.12, 0, 9, 4, 1.4, 3.9);
   const auto layout = built(prisms_of(scene.planes()));
   expect_rooms(layout, {{22.5, 2.5}, {20, 2.5}, {15.52, 2.5}});
-  EXPECT_EQ(layout.building.storeys.size(), 3U);
+  ASSERT_EQ(layout.building.storeys.size(), 3U);
   EXPECT_NEAR(layout.building.storeys[1].elevation, 1.4, 1e-6);
 }
 
@@ -82,6 +82,31 @@ TEST(Prisms, AHallBesideTwoStoreysIsOneRoom) {
   const auto layout = built(prisms_of(scene.planes()));
   expect_rooms(layout, {{24.4, 5.3}, {20, 2.5}, {20, 2.5}});
   EXPECT_EQ(layout.building.storeys.size(), 2U);
+}
+
+TEST(Prisms, LevelsThatAreOneStandApart) {
+  Scene scene;
+  add_room(scene, 0, 0, 5, 4, 0, 2.5);
+  add_room(scene, 12, 0, 16, 4, 0.03, 2.53);  // its floor and ceiling are taken for those of the other room
+  const auto layout = built(prisms_of(scene.planes()));
+  ASSERT_EQ(layout.building.rooms.size(), 2U);
+  EXPECT_NEAR(layout.building.rooms[1].area, 16, 0.02);
+}
+
+TEST(Prisms, AStoreysElevationIsThatOfItsLargestRoom) {
+  Scene scene;
+  add_room(scene, 0, 0, 5, 4, 0, 2.5);
+  add_room(scene, 5.12, 0, 9, 4, 0.6, 3.1);
+  const auto layout = built(prisms_of(scene.planes()));
+  ASSERT_EQ(layout.building.storeys.size(), 1U);
+  EXPECT_NEAR(layout.building.storeys[0].elevation, 0, 1e-6);
+}
+
+TEST(Prisms, SlabsWithoutThicknessPartStoreys) {
+  Scene scene;
+  add_room(scene, 0, 0, 5, 4, 0, 2.5);
+  add_room(scene, 0, 0, 5, 4, 2.5, 5);
+  expect_rooms(built(prisms_of(scene.planes())), {{20, 2.5}, {20, 2.5}});
 }
 
 TEST(Prisms, TheHoleOfAStairPartsStoreys) {
@@ -96,27 +121,39 @@ TEST(Prisms, TheHoleOfAStairPartsStoreys) {
   expect_rooms(layout, {{40, 2.5}, {40, 2.5}});
 }
 
-class LeaningWall : public testing::TestWithParam<double> {};
+/// Rooms whose wall at the far end leans out by `lean` metres, one over the other, `width` metres wide at the floor.
+struct Leaning {
+  double width, lean;
+  int storeys;
+};
+class LeaningWall : public testing::TestWithParam<Leaning> {};
 
 TEST_P(LeaningWall, BoundsTheRoom) {
-  const double lean = GetParam();  // metres outwards at the ceiling
+  const auto [width, lean, storeys] = GetParam();
   Scene scene;
-  scene.floor(0, 0, 5, 4).ceiling(0, 0, 5 + lean, 4);
-  scene.wall(0, 4, 0, 0);
-  const auto below = [&](const Eigen::Vector3d& p) { return p.x() <= 5 + lean * p.z() / 2.5; };
-  scene.add({0, 0, 0}, {5 + lean, 0, 0}, {0, 0, 2.5}, {0, 1, 0}, below);
-  scene.add({0, 4, 0}, {5 + lean, 0, 0}, {0, 0, 2.5}, {0, -1, 0}, below);
-  scene.add({5, 0, 0}, {0, 4, 0}, {lean, 0, 2.5}, {-2.5, 0, lean});
+  for (int s = 0; s < storeys; ++s) {
+    const double z = 2.8 * s;
+    scene.floor(0, 0, width, 4, z).ceiling(0, 0, width + lean, 4, z + 2.5);
+    scene.wall(0, 4, 0, 0, z, z + 2.5);
+    const auto below = [w = width, l = lean, z](const Eigen::Vector3d& p) {
+      return p.x() <= w + l * (p.z() - z) / 2.5;
+    };
+    scene.add({0, 0, z}, {width + lean, 0, 0}, {0, 0, 2.5}, {0, 1, 0}, below);
+    scene.add({0, 4, z}, {width + lean, 0, 0}, {0, 0, 2.5}, {0, -1, 0}, below);
+    scene.add({width, 0, z}, {0, 4, 0}, {lean, 0, 2.5}, {-2.5, 0, lean});
+  }
   const auto layout = built(prisms_of(scene.planes()));
-  ASSERT_EQ(layout.building.rooms.size(), 1U);
-  EXPECT_NEAR(layout.building.rooms[0].volume, 4 * 2.5 * (5 + lean / 2), 0.02);
-  EXPECT_EQ(layout.building.faces.size(), 6U);
+  ASSERT_EQ(layout.building.rooms.size(), static_cast<std::size_t>(storeys));
+  for (const auto& room : layout.building.rooms) EXPECT_NEAR(room.volume, 4 * 2.5 * (width + lean / 2), 0.02);
+  EXPECT_EQ(layout.building.faces.size(), 6U * static_cast<std::size_t>(storeys));
   EXPECT_EQ(std::count_if(layout.building.faces.begin(), layout.building.faces.end(),
                           [](const BuildingFace& face) { return face.surface == SurfaceClass::wall; }),
-            4);
+            4 * storeys);
   EXPECT_EQ(flaw(layout), "");
 }
-INSTANTIATE_TEST_SUITE_P(Outwards, LeaningWall, testing::Values(0.2, 0.67, 1.2));
+INSTANTIATE_TEST_SUITE_P(Outwards, LeaningWall,
+                         testing::Values(Leaning{5, 0.2, 1}, Leaning{5, 0.67, 1}, Leaning{5, 1.2, 1},
+                                         Leaning{3, 1.2, 1}, Leaning{5, 0.5, 2}));
 
 TEST(Prisms, FurnitureAndSmallSlopesAreNoLevels) {
   Scene scene;
@@ -132,8 +169,9 @@ TEST(Prisms, WithoutCeilingsThereIsNoRoom) {
   Scene scene;
   scene.floor(0, 0, 4, 3).walls({{0, 0}, {4, 0}, {4, 3}, {0, 3}});
   const Proposal proposal = prisms_of(scene.planes());
-  EXPECT_TRUE(std::none_of(proposal.cells->storeys[0].cells.begin(), proposal.cells->storeys[0].cells.end(),
-                           [](const LayoutCell& cell) { return cell.room >= 0; }));
+  for (const auto& storey : proposal.cells->storeys)
+    EXPECT_TRUE(
+        std::none_of(storey.cells.begin(), storey.cells.end(), [](const LayoutCell& cell) { return cell.room >= 0; }));
 }
 
 TEST(Prisms, OnlyWallsAreAnError) {
