@@ -74,7 +74,7 @@ export async function openPage(browser, file, { width = 1280, height = 900, dark
       if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
       return result.value;
     },
-    async waitFor(expression, seconds = 60) {
+    async waitFor(expression, seconds = 300) {  // patient: software rendering on a busy machine takes its time
       const end = Date.now() + seconds * 1000;
       while (Date.now() < end) {
         if (await page.evaluate(`Boolean(${expression})`).catch(() => false)) return;
