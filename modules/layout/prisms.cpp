@@ -37,6 +37,23 @@ bool leans(const PlanePrimitive& primitive, const Footprint& footprint) {
   return slope > least_sine && rise > least_rise && slope * rise > least_lean && footprint.raster.area() > least_area;
 }
 
+/// Walls that lean are seen from above, as floors and ceilings are.
+void lean(const PlanePrimitives& planes, double pixel, std::vector<Footprint>& seen) {
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (leans(planes.primitives[i], seen[i])) seen[i] = footprint(planes.primitives[i], *planes.cloud, pixel, true);
+}
+
+/// What leans and is no surface is an upright wall again.
+void stand_up(const PlanePrimitives& planes, const std::vector<LevelSurface>& surfaces, double pixel,
+              std::vector<Footprint>& seen) {
+  std::vector<bool> taken(seen.size(), false);
+  for (const auto& s : surfaces)
+    for (const auto p : primitives_of(s.surface)) taken[static_cast<std::size_t>(p)] = true;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (!taken[i] && !seen[i].upright && is_upright(planes.primitives[i].plane))
+      seen[i] = footprint(planes.primitives[i], *planes.cloud, pixel);
+}
+
 /// Facades across the street: walls that stand more than 3 m from any floor or ceiling.
 bool is_far(const WallLine& wall, const std::vector<Eigen::AlignedBox2d>& boxes) {
   constexpr double far = 3;
@@ -65,6 +82,12 @@ std::vector<WallLine> walls_of(const PlanePrimitives& planes, const std::vector<
     if (wall && !is_far(*wall, boxes)) walls.push_back(std::move(*wall));
   }
   return walls;
+}
+
+std::size_t prisms_of(const PrismSpace& space) {
+  std::size_t prisms = 0;
+  for (const auto& stack : space.stacks) prisms += stack.surfaces.size() + 1;
+  return prisms;
 }
 
 /// Each primitive's class, and the storey that it belongs to.
@@ -109,21 +132,13 @@ Prisms::Out Prisms::run(const In& in, const Params& params, Context& context) {
   out.cells.noise = mean_residual(planes);
   const double gap = std::max(params.min_gap, noise_levels * out.cells.noise);
   std::vector<Footprint> seen = footprints(planes, out.cells.pixel, context);
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    if (leans(planes.primitives[i], seen[i]))
-      seen[i] = footprint(planes.primitives[i], *planes.cloud, out.cells.pixel, true);
+  lean(planes, out.cells.pixel, seen);
   auto surfaces = level_surfaces(planes, seen, out.cells.pixel,
                                  {params.min_level_area, params.min_level_width, params.min_clearance, gap});
   if (surfaces.empty())
     throw Error("no plane is level: there is neither floor nor ceiling",
                 "z must point up (align.z_axis before this node)");
-  // What leans and is no surface is an upright wall.
-  std::vector<bool> taken(seen.size(), false);
-  for (const auto& s : surfaces)
-    for (const auto p : primitives_of(s.surface)) taken[static_cast<std::size_t>(p)] = true;
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    if (!taken[i] && !seen[i].upright && is_upright(planes.primitives[i].plane))
-      seen[i] = footprint(planes.primitives[i], *planes.cloud, out.cells.pixel);
+  stand_up(planes, surfaces, out.cells.pixel, seen);
   auto walls = walls_of(planes, seen, surfaces, out.cells.pixel, params);
   join_lines(walls, gap, of_other_storeys);
   std::vector<CellSurface> levels;
@@ -140,14 +155,12 @@ Prisms::Out Prisms::run(const In& in, const Params& params, Context& context) {
                                params.smoothness, params.complexity});
   out.cells.storeys = prism_rooms(space, cover, std::move(inside), {params.min_area, params.min_cover}, context);
   out.structure = structure_of(in, seen, space.surfaces, walls, out.cells.storeys);
-  std::size_t prisms = 0;
-  for (const auto& stack : space.stacks) prisms += stack.surfaces.size() + 1;
   if (out.cells.storeys.empty()) {
     context.info("no prism is inside: there is no room");
     out.cells.storeys.push_back(space.plan);
   }
   context.info(fmt::format("{} surfaces, {} lines, {} cells, {} prisms; {} storeys", space.surfaces.size(),
-                           lines.size(), space.plan.cells.size(), prisms, out.cells.storeys.size()));
+                           lines.size(), space.plan.cells.size(), prisms_of(space), out.cells.storeys.size()));
   return out;
 }
 

@@ -6,12 +6,42 @@
 #include "modules/layout/coverage.hpp"
 
 namespace atrium::layout {
+namespace {
+
+constexpr double enough_seen = 0.1;  // of a cell
+
+/// The place of the first ceiling over a prism that was seen, or else of the first; not past a floor that was seen.
+template <class LooksUp>
+std::size_t seen_ceiling(const PrismStack& stack, std::size_t prism, LooksUp looks_up) {
+  std::size_t hidden = stack.surfaces.size();
+  for (std::size_t k = prism; k < stack.surfaces.size(); ++k) {
+    const bool seen = stack.cover[k] >= enough_seen;
+    if (looks_up(k) && seen) break;
+    if (!looks_up(k) && seen) return k;
+    if (!looks_up(k)) hidden = std::min(hidden, k);
+  }
+  return hidden < stack.surfaces.size() ? hidden : prism;
+}
+
+/// The place of the first floor under a prism that was seen, not past a ceiling that was seen; or else of what it
+/// stands on.
+template <class LooksUp>
+std::size_t seen_floor(const PrismStack& stack, std::size_t prism, LooksUp looks_up) {
+  for (std::size_t k = prism; k > 0; --k) {
+    const bool seen = stack.cover[k - 1] >= enough_seen;
+    if (looks_up(k - 1) && seen) return k - 1;
+    if (!looks_up(k - 1) && seen) break;
+  }
+  return prism - 1;
+}
+
+}  // namespace
 
 WallCover::WallCover(const PrismSpace& space, const PlanePrimitives& planes, const std::vector<Footprint>& footprints)
     : space_(space), planes_(planes), footprints_(footprints), known_(space.plan.edges.size()) {}
 
 double WallCover::operator()(std::size_t edge, std::size_t side, std::size_t prism) {
-  constexpr double enough = 0.1, same = 0.01;
+  constexpr double same = 0.01;  // metres
   const CellEdge& e = space_.plan.edges[edge];
   const std::int32_t front = side == 0 ? e.left : e.right;
   if (front < 0 || e.line < 0 || space_.plan.lines[static_cast<std::size_t>(e.line)].primitives.empty()) return 0;
@@ -23,22 +53,7 @@ double WallCover::operator()(std::size_t edge, std::size_t side, std::size_t pri
   constexpr double mostly = 0.5;
   const bool over_ceiling = !looks_up(prism - 1) && stack.cover[prism - 1] >= mostly;
   if (over_ceiling || (looks_up(prism) && stack.cover[prism] >= mostly)) return 0;
-  // Up to the first ceiling that was seen, or else the first; not past a floor that was seen. And so down.
-  const std::size_t none = stack.surfaces.size();
-  std::size_t top = none, bottom = none, hidden_top = none;
-  for (std::size_t k = prism; k < none && top == none; ++k) {
-    const bool seen = stack.cover[k] >= enough;
-    if (looks_up(k) && seen) break;
-    if (!looks_up(k) && seen) top = k;
-    if (!looks_up(k) && hidden_top == none) hidden_top = k;
-  }
-  if (top == none) top = hidden_top != none ? hidden_top : prism;
-  for (std::size_t k = prism; k > 0 && bottom == none; --k) {
-    const bool seen = stack.cover[k - 1] >= enough;
-    if (!looks_up(k - 1) && seen) break;
-    if (looks_up(k - 1) && seen) bottom = k - 1;
-  }
-  if (bottom == none) bottom = prism - 1;
+  const std::size_t top = seen_ceiling(stack, prism, looks_up), bottom = seen_floor(stack, prism, looks_up);
   const double floor = space_.height(stack.surfaces[bottom], middle);
   const double ceiling = space_.height(stack.surfaces[top], middle);
   auto& known = known_[edge][side];
