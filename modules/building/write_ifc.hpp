@@ -52,8 +52,7 @@ namespace atrium::building {
 /// The text is read back before the file appears: every reference, the number of fields of each type, and that no
 /// GlobalId is there twice. A building without rooms gives a file without storeys' contents, and a warning. Errors:
 /// numbers that are not finite, indices of what is not there; a name that is no coordinate reference system; a folder
-/// that cannot be written. Then no file is there. Cost: O(walls²) for the search of neighbours, 1 s for 10,000
-/// elements.
+/// that cannot be written. Then no file is there. Cost: O(walls²) for the search of neighbours.
 struct WriteIfc {
   static constexpr std::string_view type = "building.write_ifc";
   static constexpr std::string_view summary = "Writes a building as IFC4: spaces, walls, slabs, doors, windows.";

@@ -18,7 +18,7 @@ struct Candidate {
   std::size_t primitive = 0;
   double height = 0, bottom = 0, top = 0, area = 0;
   bool up = false, slanted = false, raised = false;
-  double sheltered = 1, covered = 0;
+  double sheltered = 1;
   Raster filled;  ///< in squares that it fills
 };
 
@@ -85,7 +85,7 @@ class Levels {
     double best = 0;
     for (Candidate& l : levels_) {
       if (!l.up || l.area < limits_.least_area) continue;
-      l.covered = l.sheltered = shelter.covered(l.primitive);
+      l.sheltered = shelter.covered(l.primitive);
       if (l.sheltered < mostly)
         if (const double enclosed = shelter.enclosed(l.primitive); enclosed > mostly)
           l.sheltered = std::max(l.sheltered, enclosed);
@@ -216,20 +216,14 @@ class Levels {
       r.up = up;
       std::vector<std::int32_t> primitives = s.joined;
       primitives.push_back(s.primitive);
-      double covered = 0;
-      r.sheltered = 0;
       for (const Candidate* l : levels) {
         if (std::find(primitives.begin(), primitives.end(), static_cast<std::int32_t>(l->primitive)) ==
             primitives.end())
           continue;
         r.area += l->area;
         r.height += l->area * l->height;
-        r.sheltered += l->area * l->sheltered;
-        covered += l->area * l->covered;
       }
       r.height /= r.area;
-      r.sheltered /= r.area;
-      r.covered = covered > 0.5 * r.area;
       r.surface = std::move(s);
       result.push_back(std::move(r));
     }

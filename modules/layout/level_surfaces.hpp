@@ -11,11 +11,9 @@ namespace atrium::layout {
 /// A surface that may bound a room from below or above.
 struct LevelSurface {
   CellSurface surface;
-  bool up = false;       ///< seen from above: a floor
-  double height = 0;     ///< mean of its points, metres
-  double area = 0;       ///< of the squares that hold points, square metres
-  double sheltered = 1;  ///< of a floor: the share that ceilings cover or walls enclose
-  bool covered = false;  ///< of a floor: whether a ceiling was scanned over most of it
+  bool up = false;    ///< seen from above: a floor
+  double height = 0;  ///< mean of its points, metres
+  double area = 0;    ///< of the squares that hold points, square metres
 };
 
 /// What may be a floor or a ceiling somewhere in a building, whatever its storey: all planes that are not upright and

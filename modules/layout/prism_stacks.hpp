@@ -30,7 +30,8 @@ struct PrismSpace {
 
 /// Cuts the plan along `lines` and where slanted surfaces cross, stacks the surfaces over each cell and measures what
 /// was seen of them. A surface is in the stacks of the cells that it was seen in and, if it is level, of those within
-/// `reach` metres; a steep one within none. Cost: linear in the points of surfaces that are not upright.
+/// `reach` metres; if it is slanted, within one metre; a steep one goes on nowhere. Cost: linear in the points of
+/// surfaces that are not upright.
 PrismSpace prism_space(const PlanePrimitives& planes, const std::vector<Footprint>& footprints,
                        std::vector<LevelSurface> surfaces, const std::vector<WallLine>& lines, double pixel,
                        double noise, double margin, double extension, double reach, const Context& context);

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "tests/support/box_building.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "writing_host.hpp"
 
 namespace atrium::building::accuracy_test {
 namespace {
@@ -18,16 +18,7 @@ using test::BoxBuilding;
 
 class AccuracyTable : public ::testing::Test {
  protected:
-  class Host : public ContextHost {
-   public:
-    test::TemporaryFolder folder;
-    std::vector<std::string> warnings;
-    std::filesystem::path output_folder() override { return folder.path(); }
-    void log(Level level, std::string_view text) override {
-      if (level == Level::warning) warnings.emplace_back(text);
-    }
-  };
-  std::shared_ptr<Host> host = std::make_shared<Host>();
+  std::shared_ptr<test::WritingHost> host = std::make_shared<test::WritingHost>();
   Context context{1, host};
   Building building;
   Mesh mesh;

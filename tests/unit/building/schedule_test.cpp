@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "houses.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "writing_host.hpp"
 
 namespace atrium::building::schedule_test {
 namespace {
@@ -35,16 +35,7 @@ std::vector<std::string> cells(const std::string& line) {
 
 class Schedules : public ::testing::Test {
  protected:
-  class Host : public ContextHost {
-   public:
-    test::TemporaryFolder folder;
-    std::vector<std::string> warnings;
-    std::filesystem::path output_folder() override { return folder.path(); }
-    void log(Level level, std::string_view text) override {
-      if (level == Level::warning) warnings.emplace_back(text);
-    }
-  };
-  std::shared_ptr<Host> host = std::make_shared<Host>();
+  std::shared_ptr<test::WritingHost> host = std::make_shared<test::WritingHost>();
   Context context{1, host};
 
   void write(const Building& building) { Schedule::run({input(building), {}}, {}, context); }

@@ -14,7 +14,7 @@
 #include "houses.hpp"
 #include "modules/building/step_reader.hpp"
 #include "tests/support/process.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "writing_host.hpp"
 
 namespace atrium::building::write_ifc_test {
 namespace {
@@ -25,16 +25,7 @@ using test::House;
 
 class IfcFile : public ::testing::Test {
  protected:
-  class Host : public ContextHost {
-   public:
-    test::TemporaryFolder folder;
-    std::vector<std::string> warnings;
-    std::filesystem::path output_folder() override { return folder.path(); }
-    void log(Level level, std::string_view text) override {
-      if (level == Level::warning) warnings.emplace_back(text);
-    }
-  };
-  std::shared_ptr<Host> host = std::make_shared<Host>();
+  std::shared_ptr<test::WritingHost> host = std::make_shared<test::WritingHost>();
   Context context{1, host};
 
   std::string text(const Building& building, WriteIfc::Params params = {}, WriteIfc::In more = {}) {
