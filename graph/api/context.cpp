@@ -5,13 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
 #include <thread>
 
 #include "graph/api/error.hpp"
+#include "graph/api/files.hpp"
 
 namespace atrium {
 namespace {
@@ -22,22 +22,36 @@ double cpu_seconds_of_thread() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Tells the host what a helping thread's piece cost (the loop's own thread is timed by who runs the node).
+/// Tells the host what a helping thread's piece cost (the loop's own thread is timed by who runs the node). Of pieces
+/// within pieces the outermost counts.
 class HelpTimer {
  public:
   HelpTimer(ContextHost& host, bool helping)
-      : host_(host), helping_(helping), start_(helping ? cpu_seconds_of_thread() : 0) {}
+      : host_(host), helping_(helping && !inside), outermost_(!inside), start_(helping_ ? cpu_seconds_of_thread() : 0) {
+    inside = true;
+  }
   ~HelpTimer() {
+    if (outermost_) inside = false;
     if (helping_) host_.helped(cpu_seconds_of_thread() - start_);
   }
   HelpTimer(const HelpTimer&) = delete;
   HelpTimer& operator=(const HelpTimer&) = delete;
 
  private:
+  static thread_local bool inside;
   ContextHost& host_;
-  bool helping_;
+  bool helping_, outermost_;
   double start_;
 };
+thread_local bool HelpTimer::inside = false;
+
+/// So that a file's new name is there after a power failure, too. Where that cannot be had, the file is whole anyway.
+void flush_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
 
 }  // namespace
 
@@ -52,12 +66,12 @@ void Context::parallel_chunks(std::size_t total, std::size_t size,
                               const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const {
   if (total == 0) return;
   const std::size_t chunk = std::max<std::size_t>(size, 1);
-  const std::size_t chunks = (total + chunk - 1) / chunk;
+  const std::size_t chunks = (total - 1) / chunk + 1;
   const auto caller = std::this_thread::get_id();
   const auto one = [&](std::size_t i) {
     check_cancelled();
     const HelpTimer timer(*host_, std::this_thread::get_id() != caller);
-    work(i, i * chunk, std::min(total, (i + 1) * chunk));
+    work(i, i * chunk, i * chunk + std::min(chunk, total - i * chunk));
   };
   if (chunks == 1) {
     one(0);
@@ -85,11 +99,11 @@ std::filesystem::path Context::output(const std::string& relative) const {
 }
 
 AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)) {
-  // Two threads, or two processes, may write the same file: each has its own beside it, and the last one stays.
-  static std::atomic<std::uint64_t> number = 0;
-  temporary_ = target_.parent_path() / ("." + target_.filename().string() + "." + std::to_string(::getpid()) + "-" +
-                                        std::to_string(++number) + ".part");
-  file_ = std::fopen(temporary_.c_str(), "wb");
+  // Two threads, or processes of two machines, may write the same file: each has its own beside it, and the last one
+  // stays. Nothing that stands there already, a link least of all, is written into.
+  temporary_ = target_.parent_path() / unfinished_file_name(target_.filename().string());
+  const int descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor >= 0) file_ = ::fdopen(descriptor, "wb");
   if (file_ == nullptr) throw Error("cannot write " + target_.string() + ": " + std::strerror(errno));
 }
 
@@ -112,6 +126,7 @@ void AtomicFile::publish(bool flush) {
   std::filesystem::rename(temporary_, target_, error);
   if (error) throw Error("cannot write " + target_.string() + ": " + error.message());
   done_ = true;
+  if (flush) flush_folder(target_.parent_path());
 }
 
 }  // namespace atrium

@@ -1,5 +1,6 @@
 #include "graph/api/flat.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace atrium {
@@ -8,6 +9,7 @@ namespace {
 constexpr std::size_t alignment = 64;
 constexpr std::size_t hash_digits = 32;
 constexpr std::size_t block = std::size_t{1} << 18U;
+constexpr std::size_t window = std::size_t{1} << 16U;
 
 std::size_t padding(std::uint64_t position, std::size_t size) {
   return size < alignment ? 0 : static_cast<std::size_t>((alignment - position % alignment) % alignment);
@@ -42,9 +44,23 @@ void FlatWriter::finish() {
   buffer_.clear();
 }
 
+FlatReader::FlatReader(const std::byte* data, std::size_t size, Resolve resolve)
+    : FlatReader([data](void* to, std::uint64_t at, std::size_t part) { std::memcpy(to, data + at, part); }, size,
+                 std::move(resolve)) {}
+
 void FlatReader::bytes(void* to, std::size_t size) {
   if (size > size_ - position_) throw Error("the flat form of a value ends too early");
-  if (size > 0) std::memcpy(to, data_ + position_, size);
+  if (size == 0) return;
+  if (size >= window) {
+    read_(to, position_, size);
+  } else {
+    if (position_ < window_at_ || position_ + size > window_at_ + window_.size()) {
+      window_.resize(std::min(window, size_ - position_));
+      window_at_ = position_;
+      read_(window_.data(), window_at_, window_.size());
+    }
+    std::memcpy(to, window_.data() + (position_ - window_at_), size);
+  }
   position_ += size;
 }
 

@@ -52,8 +52,11 @@ class FlatReader {
  public:
   /// Gives the shared value of that content hash; throws Error if it is not to be had.
   using Resolve = std::function<std::shared_ptr<const void>(const FlatType& type, const std::string& hash)>;
-  FlatReader(const std::byte* data, std::size_t size, Resolve resolve)
-      : data_(data), size_(size), resolve_(std::move(resolve)) {}
+  FlatReader(const std::byte* data, std::size_t size, Resolve resolve);
+  /// `read` copies `size` bytes from the place `at` of the value.
+  using Read = std::function<void(void* to, std::uint64_t at, std::size_t size)>;
+  FlatReader(Read read, std::size_t size, Resolve resolve)
+      : read_(std::move(read)), size_(size), resolve_(std::move(resolve)) {}
   void bytes(void* to, std::size_t size);
   void array(void* to, std::size_t size);
   /// The number of items of a container, each of at least `item` bytes.
@@ -62,8 +65,10 @@ class FlatReader {
   bool at_end() const { return position_ == size_; }
 
  private:
-  const std::byte* data_;
+  Read read_;
   std::size_t size_, position_ = 0;
+  std::vector<std::byte> window_;  ///< the bytes from window_at_ on, so that small reads are few
+  std::size_t window_at_ = 0;
   Resolve resolve_;
 };
 

@@ -197,10 +197,20 @@ bool is_textual(ParamKind kind) {
   }
 }
 
+/// "1 m": a number and a unit. In quotes, too, it can be nothing else; JSON can write it in no other way.
+bool is_written_quantity(const std::string& text) {
+  double number = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const std::string_view unit =
+      trimmed(std::string_view(end, static_cast<std::size_t>(text.data() + text.size() - end)));
+  return problem == std::errc{} && end != text.data() && find_unit(unit) != nullptr;
+}
+
 void check_shape(const ParamInfo& info, const RawValue& raw) {
   if (raw.is_list && !is_list(info.kind)) fail(info, fmt::format("'{}' is one value, not a list", info.name));
   if (!raw.is_list && raw.items.size() != 1) fail(info, fmt::format("'{}' has no value", info.name));
-  if (raw.quoted && !is_textual(info.kind)) {
+  const bool quantity_in_quotes = std::any_of(raw.items.begin(), raw.items.end(), is_written_quantity);
+  if (raw.quoted && !is_textual(info.kind) && !quantity_in_quotes) {
     const std::string_view text = raw.items.empty() ? std::string_view{} : std::string_view(raw.items.front());
     fail(info, fmt::format("'{}' is {}, and \"{}\" in quotes is text; write it without quotes", info.name,
                            info.kind == ParamKind::boolean ? "true or false" : with_article(noun(info.unit.dimension)),

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -107,26 +108,51 @@ struct ChoiceRow {
   std::string_view doc;
 };
 
+namespace detail {
+
+/// "x" for &Params::x, as the compiler spells it.
+template <auto Member>
+consteval std::string_view member_name() {
+  std::string_view name = __PRETTY_FUNCTION__;
+  name.remove_prefix(name.find("Member = ") + std::string_view("Member = ").size());
+  name = name.substr(0, name.find_first_of(";]"));
+  return name.substr(name.rfind("::") + 2);
+}
+
+template <class T>
+struct Member;
+template <class S, class T>
+struct Member<T S::*> {
+  using Struct = S;
+  using Type = T;
+};
+template <auto M>
+using StructOf = typename Member<decltype(M)>::Struct;
+template <auto M>
+using TypeOf = typename Member<decltype(M)>::Type;
+
+}  // namespace detail
+
 /// A number, an integer or a list of numbers (std::vector<double>, Eigen fixed vectors are not parameters) with unit
-/// and bounds (bounds hold for each item).
-template <class P, class T>
-constexpr ParamRow<P, T> param(T P::*member, std::string_view name, Unit unit, Bounds bounds, std::string_view doc) {
+/// and bounds (bounds hold for each item): param<&Params::x>(metres, within(0, 10), "…"). Its name is the member's.
+template <auto Member>
+constexpr auto param(Unit unit, Bounds bounds, std::string_view doc) {
+  using T = detail::TypeOf<Member>;
   static_assert(std::is_arithmetic_v<T> || std::is_same_v<T, std::vector<double>>,
                 "a parameter with a unit is a double, an integer or a std::vector<double>");
-  return {member, name, unit, bounds, doc};
+  return ParamRow<detail::StructOf<Member>, T>{Member, detail::member_name<Member>(), unit, bounds, doc};
 }
 /// A bool, std::string, InputPath, OutputPath, std::vector<std::string> or std::vector<InputPath>.
-template <class P, class T>
-constexpr ParamRow<P, T> param(T P::*member, std::string_view name, std::string_view doc) {
-  static_assert(!std::is_floating_point_v<T>,
-                "a number needs its unit and bounds: param(&Params::x, \"x\", metres, …)");
-  return {member, name, unitless, unbounded, doc};
+template <auto Member>
+constexpr auto param(std::string_view doc) {
+  using T = detail::TypeOf<Member>;
+  static_assert(!std::is_floating_point_v<T>, "a number needs its unit and bounds: param<&Params::x>(metres, …)");
+  return ParamRow<detail::StructOf<Member>, T>{Member, detail::member_name<Member>(), unitless, unbounded, doc};
 }
-/// One of several named values: param(&Params::method, "method", {{"knn", Method::knn}, …}, "…").
-template <class P, class E, std::size_t N>
-constexpr ChoiceRow<P, E, N> param(E P::*member, std::string_view name, const Choice<E> (&choices)[N],
-                                   std::string_view doc) {
-  ChoiceRow<P, E, N> row{member, name, {}, doc};
+/// One of several named values: param<&Params::method>({{"knn", Method::knn}, …}, "…").
+template <auto Member, std::size_t N>
+constexpr auto param(const Choice<detail::TypeOf<Member>> (&choices)[N], std::string_view doc) {
+  ChoiceRow<detail::StructOf<Member>, detail::TypeOf<Member>, N> row{Member, detail::member_name<Member>(), {}, doc};
   for (std::size_t i = 0; i < N; ++i) row.choices[i] = choices[i];
   return row;
 }
@@ -189,6 +215,24 @@ constexpr ParamKind kind_of() {
     return ParamKind::texts;
   else if constexpr (std::is_same_v<T, std::vector<InputPath>>)
     return ParamKind::input_paths;
+}
+
+/// Whether a default is what its own row allows.
+template <class P, class T>
+constexpr bool fits(const ParamRow<P, T>& row, const P& defaults) {
+  const auto inside = [&](double v) { return v >= row.bounds.min && v <= row.bounds.max; };
+  if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
+    return inside(static_cast<double>(defaults.*row.member));
+  } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+    return std::all_of((defaults.*row.member).begin(), (defaults.*row.member).end(), inside);
+  } else {
+    return true;
+  }
+}
+template <class P, class E, std::size_t N>
+constexpr bool fits(const ChoiceRow<P, E, N>& row, const P& defaults) {
+  return std::any_of(std::begin(row.choices), std::end(row.choices),
+                     [&](const Choice<E>& choice) { return choice.value == defaults.*row.member; });
 }
 
 template <class P, class T>

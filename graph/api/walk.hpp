@@ -32,11 +32,20 @@ concept HasMembers = requires {
   T::members();
 };
 template <class T>
-concept EigenFixed = requires(const T& m) {
+concept EigenDense = requires(const T& m) {
   T::SizeAtCompileTime;
   m.derived();
   m.data();
 };
+template <class T>
+constexpr bool is_eigen_fixed() {
+  if constexpr (EigenDense<T>)
+    return T::SizeAtCompileTime >= 0;  // else Eigen::Dynamic
+  else
+    return false;
+}
+template <class T>
+concept EigenFixed = is_eigen_fixed<T>();
 template <class T>
 concept Range = requires(const T& r) {
   r.begin();
@@ -63,6 +72,8 @@ struct IsFlatArray<std::array<T, N>> : std::bool_constant<is_flat<T>()> {};
 /// `sink.array(data, size)` the items of a container in one block, `sink.pointer(p)` what may be null or shared.
 template <class T, class Sink>
 void walk(const T& value, Sink& sink) {
+  static_assert(!EigenDense<T> || EigenFixed<T>,
+                "of Eigen's matrices only those of a fixed size can be on a port: give a std::vector of columns");
   if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
     sink(&value, sizeof(T));
   } else if constexpr (EigenFixed<T>) {

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "graph/api/context.hpp"
-#include "graph/api/mapped_file.hpp"
+#include "graph/cache/read_file.hpp"
 
 namespace atrium {
 namespace {
@@ -19,23 +19,18 @@ constexpr char magic[8] = {'a', 't', 'r', 'i', 'u', 'm', 'B', '1'};
 constexpr std::uint64_t byte_order = 0x0102030405060708;
 constexpr std::size_t digest_size = 32;
 
-std::string digest_of(const std::byte* data, std::size_t size) {
-  ContentHash hash;
-  hash.bytes(data, size);
-  return hash.hex();
-}
-
 /// The head of a file that is whole.
-Head checked_head(const MappedFile& map, const std::filesystem::path& file) {
+Head checked_head(const ReadFile& file) {
   Head head{};
-  const auto refuse = [&](const char* why) { throw DamagedFile(file.string() + " " + why); };
-  if (map.size() < sizeof(Head) + digest_size) refuse("is cut off");
-  std::memcpy(&head, map.data(), sizeof head);
+  const auto refuse = [&](const char* why) { throw DamagedFile(file.path().string() + " " + why); };
+  if (file.size() < sizeof(Head) + digest_size) refuse("is cut off");
+  file.read(&head, 0, sizeof head);
   if (std::memcmp(head.magic, magic, sizeof magic) != 0) refuse("is not a stored value of this version");
   if (head.byte_order != byte_order) refuse("was written on a machine of another byte order");
-  const std::size_t whole = map.size() - digest_size;
-  if (digest_of(map.data(), whole) != std::string(reinterpret_cast<const char*>(map.data()) + whole, digest_size))
-    refuse("is damaged");
+  const std::size_t whole = file.size() - digest_size;
+  std::string digest(digest_size, '\0');
+  file.read(digest.data(), whole, digest_size);
+  if (file.hash(whole) != digest) refuse("is damaged");
   return head;
 }
 
@@ -71,11 +66,13 @@ std::uint64_t flat_size(const FlatType& type, const void* value) {
 
 std::shared_ptr<const void> read_blob(const std::filesystem::path& file, const FlatType& type, const std::string& hash,
                                       const FlatReader::Resolve& resolve) {
-  const MappedFile map(file, MappedFile::Kinds::regular);
-  const Head head = checked_head(map, file);
+  const ReadFile stored(file);
+  const Head head = checked_head(stored);
   if (head.layout != type.layout) throw DamagedFile(file.string() + " holds a value of another layout");
   if (std::string_view(head.hash, sizeof head.hash) != hash) throw DamagedFile(file.string() + " holds another value");
-  FlatReader reader(map.data() + sizeof head, map.size() - sizeof head - digest_size, resolve);
+  std::vector<std::byte> bytes(static_cast<std::size_t>(stored.size() - sizeof head - digest_size));
+  stored.read(bytes.data(), sizeof head, bytes.size());
+  FlatReader reader(bytes.data(), bytes.size(), resolve);
   try {
     auto value = type.read(reader);
     if (!reader.at_end()) throw Error("it is longer than its value");
@@ -85,11 +82,11 @@ std::shared_ptr<const void> read_blob(const std::filesystem::path& file, const F
   }
 }
 
-void check_blob(const std::filesystem::path& file) { checked_head(MappedFile(file, MappedFile::Kinds::regular), file); }
+void check_blob(const std::filesystem::path& file) { checked_head(ReadFile(file)); }
 
 std::string hash_of_file(const std::filesystem::path& file) {
-  const MappedFile map(file, MappedFile::Kinds::regular);
-  return digest_of(map.data(), map.size());
+  const ReadFile whole(file);
+  return whole.hash(whole.size());
 }
 
 std::string hash_if_readable(const std::filesystem::path& file) {

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 
+#include "graph/api/clocks.hpp"
 #include "graph/api/context.hpp"
 #include "graph/api/files.hpp"
-#include "graph/api/mapped_file.hpp"
 #include "graph/cache/blob.hpp"
 #include "graph/cache/cache_folder.hpp"
+#include "graph/cache/read_file.hpp"
 #include "graph/cache/upkeep.hpp"
-#include "graph/run/clocks.hpp"
 
 namespace atrium {
 namespace {
@@ -99,21 +98,18 @@ std::optional<CacheRecord> Cache::find(const std::string& type, const std::strin
 
 bool Cache::restore(const CacheRecord::File& file, const fs::path& target) {
   const fs::path source = places_.file(file.hash);
-  std::optional<MappedFile> map;
+  std::optional<ReadFile> kept;
   try {
-    map.emplace(source, MappedFile::Kinds::regular);
+    kept.emplace(source);
   } catch (const Error&) {  // removed
     return false;
   }
-  ContentHash hash;
-  hash.bytes(map->data(), map->size());
-  if (hash.hex() != file.hash) {
+  make_folder(target.parent_path());
+  if (copy_hashed(*kept, target, file.hash) != file.hash) {
     discard(source);
     problem(source.string() + " is damaged: the node that wrote it is run again");
     return false;
   }
-  make_folder(target.parent_path());
-  write_bytes(target, map->data(), map->size());
   touch(source);
   return true;
 }
@@ -149,9 +145,9 @@ std::shared_ptr<const void> Cache::load(const FlatType& type, const std::string&
 }
 
 /// Null if it is not there (any more). Throws Passing.
-
 std::shared_ptr<const void> Cache::load_whole(const FlatType& type, const std::string& hash) {
   if (auto value = alive(type, hash)) return value;
+  if (!is_content_hash(hash)) throw Passing("a value names another by what is no hash");
   const fs::path file = places_.value(type, hash);
   std::error_code missing;
   const std::uint64_t bytes = fs::file_size(file, missing);
@@ -200,19 +196,18 @@ void Cache::give_up(const std::string& why) {
 std::optional<std::string> Cache::keep_file(const fs::path& file) {
   if (!works()) return std::nullopt;
   try {
-    const MappedFile map(file, MappedFile::Kinds::regular);
-    ContentHash digest;
-    digest.bytes(map.data(), map.size());
-    std::string hash = digest.hex();
+    const ReadFile written(file);
+    if (written.size() > options_.most_bytes / 2) return std::nullopt;  // it would drive out all else
+    std::string hash = written.hash(written.size());
     const fs::path target = places_.file(hash);
     std::error_code missing;
-    if (fs::file_size(target, missing) == map.size() && !missing) {
+    if (fs::file_size(target, missing) == written.size() && !missing) {
       touch(target);
       return hash;
     }
     make_room_for(target);
-    write_bytes(target, map.data(), map.size());
-    added(map.size());
+    if (copy_hashed(written, target, hash) != hash) return std::nullopt;  // it was changed meanwhile
+    added(written.size());
     return hash;
   } catch (const Error& error) {
     give_up(error.what());
@@ -231,6 +226,10 @@ void Cache::keep(const CacheRecord& record) {
   } catch (const Error& error) {
     give_up(error.what());
   }
+}
+
+void Cache::forget(const std::string& type, const std::string& key) {
+  if (!key.empty()) discard(places_.record(type, key));
 }
 
 bool Cache::keep_value(const FlatType& type, std::shared_ptr<const void> data, const std::string& hash,

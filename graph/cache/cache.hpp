@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "graph/cache/build_ids.hpp"
 #include "graph/cache/places.hpp"
 #include "graph/cache/record.hpp"
 
@@ -42,6 +43,8 @@ class Cache {
   /// What the code of a node type is: asked for before the first node is run, so that it is the code that runs.
   std::string build_of(const NodeType& type) { return builds_.of(type); }
   bool is_build_unchanged(const NodeType& type) { return builds_.unchanged(type); }
+  /// Takes the hash of a file's contents for keys to come. Throws Error if it cannot be read.
+  void hash_ahead(const std::filesystem::path& file) { files_.of(file); }
   /// The node's key. Throws Error if a file that it depends on cannot be read.
   NodeKey key_of(const PipelineNode& node, const std::vector<std::vector<std::string>>& inputs);
   /// The record of a key, or nothing.
@@ -55,6 +58,8 @@ class Cache {
   /// Keeps the bytes of a file that a node wrote. Nothing: it could not be kept.
   std::optional<std::string> keep_file(const std::filesystem::path& file);
   void keep(const CacheRecord& record);
+  /// Removes a record that does not say any more what its node gives.
+  void forget(const std::string& type, const std::string& key);
   /// Remembers a value while it lives, and keeps it if making it again would take longer (`cost`, seconds) than writing
   /// it. Written in the background. Returns whether it is, or will be, there.
   bool keep_value(const FlatType& type, std::shared_ptr<const void> data, const std::string& hash, std::uint64_t bytes,

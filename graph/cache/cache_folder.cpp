@@ -9,7 +9,6 @@
 #include "graph/api/context.hpp"
 #include "graph/api/error.hpp"
 #include "graph/api/files.hpp"
-#include "graph/run/run_folder.hpp"
 
 namespace atrium {
 namespace {
@@ -50,17 +49,6 @@ bool is_file_of(CacheKind kind, std::string_view folder, std::string_view name) 
   return is_hex(name, digits) && (kind != CacheKind::files || name.starts_with(folder));
 }
 
-/// NAME of ".NAME.PID-NUMBER.part" (AtomicFile); else empty.
-std::string_view unfinished_name(std::string_view name) {
-  constexpr std::string_view end = ".part";
-  if (!name.starts_with('.') || !name.ends_with(end)) return {};
-  name = name.substr(1, name.size() - 1 - end.size());
-  const std::size_t dot = name.rfind('.');
-  if (dot == std::string_view::npos || name.find_first_not_of("0123456789-", dot + 1) != std::string_view::npos)
-    return {};
-  return name.substr(0, dot);
-}
-
 /// Calls see(path) for what a folder holds; nothing if it is not there.
 template <class See>
 void for_each_in(const fs::path& folder, See see) {
@@ -74,7 +62,7 @@ void for_each_in(const fs::path& folder, See see) {
 void see_file(const fs::path& file, CacheKind kind, std::string_view folder,
               const std::function<void(const CacheEntry&)>& see) {
   const std::string name = file.filename().string();
-  const std::string_view whole = unfinished_name(name);
+  const std::string_view whole = name_of_unfinished(name);
   if (!is_file_of(kind, folder, whole.empty() ? name : whole)) return;
   struct stat info {};
   if (::lstat(file.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return;

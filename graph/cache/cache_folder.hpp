@@ -8,7 +8,7 @@
 
 namespace atrium {
 
-/// The folder is none of a cache.
+/// Not a cache folder.
 class NoCacheFolder : public Error {
  public:
   using Error::Error;

@@ -9,6 +9,7 @@ namespace atrium {
 namespace {
 
 constexpr std::size_t most_records = 20;
+constexpr std::size_t most_read = 1000;  // large sweeps leave hundreds of thousands
 
 /// A share of them is at most so much.
 template <class T>
@@ -39,7 +40,7 @@ const Costs::OfType& Costs::read(const std::string& type) {
   const auto [known, fresh] = types_.try_emplace(type);
   OfType& seen = known->second;
   if (!fresh) return seen;
-  const auto records = records_of(places_, type);
+  const auto records = records_of(places_, type, most_read);
   std::vector<const CacheRecord*> all;
   std::map<std::string, std::vector<const CacheRecord*>> by_node;
   for (const auto& record : records) {

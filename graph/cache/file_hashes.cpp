@@ -14,6 +14,7 @@
 #include "graph/api/files.hpp"
 #include "graph/api/walk.hpp"
 #include "graph/cache/blob.hpp"
+#include "graph/cache/places.hpp"
 
 namespace atrium {
 namespace {
@@ -36,24 +37,26 @@ std::string text_of(const struct stat& info) {
 
 std::string text_with_device(const struct stat& info) { return fmt::format("{}:{}", info.st_dev, text_of(info)); }
 
-std::string hash_of_text(const std::string& text) {
-  ContentHash hash;
-  hash.bytes(text.data(), text.size());
-  return hash.hex();
+/// Adds all files in a folder and below. Links are followed, as a node that reads the folder does.
+void add_files_in(const fs::path& folder, int depth, std::vector<fs::path>& files) {
+  constexpr int deepest = 40;  // as many links as the system follows
+  std::error_code error;
+  fs::directory_iterator it(folder, fs::directory_options::skip_permission_denied, error);
+  if (depth > deepest) error = std::make_error_code(std::errc::too_many_symbolic_link_levels);
+  for (const fs::directory_iterator end; !error && it != end; it.increment(error)) {
+    const fs::file_status status = it->status(error);
+    if (error == std::errc::no_such_file_or_directory) error.clear();  // a link to nothing, or it has just gone
+    if (error) break;
+    if (status.type() == fs::file_type::regular) files.push_back(it->path());
+    if (status.type() == fs::file_type::directory) add_files_in(it->path(), depth + 1, files);
+  }
+  if (error) throw Error("cannot read the folder " + folder.string() + ": " + error.message());
 }
 
 /// All files in a folder and below, by name. Throws Error.
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
-  std::error_code error;
-  fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, error);
-  for (const fs::recursive_directory_iterator end; !error && it != end; it.increment(error)) {
-    const bool is_file = it->is_regular_file(error);
-    if (error == std::errc::no_such_file_or_directory) error.clear();  // a link to nothing, or it has just gone
-    if (error) break;
-    if (is_file) files.push_back(it->path());
-  }
-  if (error) throw Error("cannot read the folder " + folder.string() + ": " + error.message());
+  add_files_in(folder, 0, files);
   std::sort(files.begin(), files.end());
   return files;
 }

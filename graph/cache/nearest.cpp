@@ -1,6 +1,7 @@
 #include "graph/cache/nearest.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 
 #include "graph/api/error.hpp"
@@ -30,12 +31,16 @@ std::optional<CacheRecord> record_of(const CachePlaces& places, const std::strin
   return read_file(places.record(type, key));
 }
 
-std::vector<CacheRecord> records_of(const CachePlaces& places, const std::string& type) {
-  std::vector<CacheRecord> records;
+std::vector<CacheRecord> records_of(const CachePlaces& places, const std::string& type, std::size_t most) {
+  std::vector<std::pair<fs::file_time_type, fs::path>> files;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(places.records(type), ignored))
-    if (entry.path().extension() != ".part")
-      if (auto record = read_file(entry.path())) records.push_back(std::move(*record));
+    if (entry.path().extension() != ".part") files.emplace_back(entry.last_write_time(ignored), entry.path());
+  std::sort(files.begin(), files.end(), std::greater());
+  if (files.size() > most) files.resize(most);
+  std::vector<CacheRecord> records;
+  for (const auto& [used, file] : files)
+    if (auto record = read_file(file)) records.push_back(std::move(*record));
   return records;
 }
 

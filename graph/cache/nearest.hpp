@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,8 +11,9 @@ namespace atrium {
 
 /// The record of a key as it stands in the cache, or nothing.
 std::optional<CacheRecord> record_of(const CachePlaces& places, const std::string& type, const std::string& key);
-/// All records of a node type.
-std::vector<CacheRecord> records_of(const CachePlaces& places, const std::string& type);
+/// The records of a node type that were used last, so many at most.
+std::vector<CacheRecord> records_of(const CachePlaces& places, const std::string& type,
+                                    std::size_t most = std::numeric_limits<std::size_t>::max());
 
 /// A field of the key that is not the same. Empty: it was not, or is not, there.
 struct KeyDifference {

@@ -1,61 +1,11 @@
 #include "graph/cache/node_key.hpp"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
-
-#include <algorithm>
-
-#include "graph/api/plugin.hpp"
-#include "graph/api/plugin_data.hpp"
 
 namespace atrium {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The folder of libatrium.so.
-fs::path library_folder() {
-  Dl_info info{};
-  static const char anchor = 0;
-  if (::dladdr(&anchor, &info) == 0 || info.dli_fname == nullptr) return {};
-  std::error_code ignored;
-  return fs::canonical(info.dli_fname, ignored).parent_path();
-}
-
-template <class Good>
-void add_files(const fs::path& folder, Good good, std::vector<fs::path>& files) {
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (entry.is_regular_file(ignored) && !entry.is_symlink(ignored) && good(entry.path().filename().string()))
-      files.push_back(entry.path());
-}
-
-/// Atrium's own libraries.
-std::vector<fs::path> own_libraries() {
-  std::vector<fs::path> files;
-  add_files(
-      library_folder(),
-      [](const std::string& name) { return name.starts_with("libatrium") && name.find(".so") != std::string::npos; },
-      files);
-  return files;
-}
-
-/// A plugin's library, its second one, the programs beside them, and the files that its nodes read.
-std::vector<fs::path> plugin_files(const fs::path& library) {
-  const std::string second = library.stem().string() + "-run.so";
-  std::vector<fs::path> files{library};
-  const auto good = [&](const std::string& name) { return name == second || name.starts_with("atrium-"); };
-  add_files(library.parent_path(), good, files);
-  const auto data = plugin_data_files(library);
-  files.insert(files.end(), data.begin(), data.end());
-  return files;
-}
-
-std::string fingerprints(const std::vector<fs::path>& files) {
-  std::string text;
-  for (const auto& file : files) text += FileHashes::fingerprint(file) + "\n";
-  return text;
-}
 
 void add_file(NodeKey& key, const std::string& name, const std::string& path, FileHashes& files) {
   key.fields.push_back({name, files.of(path) + " " + fs::path(path).filename().string()});
@@ -70,36 +20,6 @@ std::string NodeKey::hex() const {
     hash.bytes(text.data(), text.size());
   }
   return hash.hex();
-}
-
-const BuildIds::Build& BuildIds::build_of(const NodeType& type) {
-  const auto [known, fresh] = known_.try_emplace(type.library);
-  Build& build = known->second;
-  if (!fresh && !build.hash.empty()) return build;
-  build.files = own_libraries();
-  if (!type.library.empty()) {
-    auto more = plugin_files(type.library);
-    build.files.insert(build.files.end(), more.begin(), more.end());
-  }
-  std::sort(build.files.begin(), build.files.end());
-  build.fingerprint = fingerprints(build.files);
-  std::string text = fmt::format("{}\n", ATRIUM_STAMP);
-  for (const auto& file : build.files) text += fmt::format("{} {}\n", file.filename().string(), files_.of(file));
-  ContentHash hash;
-  hash.bytes(text.data(), text.size());
-  build.hash = hash.hex();
-  return build;
-}
-
-std::string BuildIds::of(const NodeType& type) {
-  const std::lock_guard lock(mutex_);
-  return build_of(type).hash;
-}
-
-bool BuildIds::unchanged(const NodeType& type) {
-  const std::lock_guard lock(mutex_);
-  const Build& build = build_of(type);
-  return fingerprints(build.files) == build.fingerprint;
 }
 
 NodeKey make_key(const PipelineNode& node, const std::vector<std::vector<std::string>>& inputs,

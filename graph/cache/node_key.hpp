@@ -21,27 +21,6 @@ struct NodeKey {
   std::string hex() const;
 };
 
-/// What a node type's code is: the bytes of its plugin (both libraries, the helper programs beside it, the data files
-/// that it says it reads) and of Atrium's own libraries. Throws Error if a file of them cannot be read.
-class BuildIds {
- public:
-  explicit BuildIds(FileHashes& files) : files_(files) {}
-  std::string of(const NodeType& type);
-  /// Whether its files are still those of which the hash is: somebody may build while a run is under way.
-  bool unchanged(const NodeType& type);
-
- private:
-  struct Build {
-    std::vector<std::filesystem::path> files;
-    std::string fingerprint, hash;
-  };
-  const Build& build_of(const NodeType& type);
-
-  FileHashes& files_;
-  std::mutex mutex_;
-  std::map<std::string, Build> known_;  ///< by library
-};
-
 /// `inputs`: the content hashes of the values on each input port. Throws Error if a file cannot be read.
 NodeKey make_key(const PipelineNode& node, const std::vector<std::vector<std::string>>& inputs,
                  const std::string& build, FileHashes& files);

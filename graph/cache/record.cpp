@@ -2,20 +2,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "graph/api/fact_json.hpp"
 #include "graph/api/json_text.hpp"
-#include "graph/run/record_json.hpp"
+#include "graph/cache/places.hpp"
 
 namespace atrium {
 namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr int version = 3;
-
-std::string hash_of(std::string_view text) {
-  ContentHash hash;
-  hash.bytes(text.data(), text.size());
-  return hash.hex();
-}
 
 Json outputs_json(const CacheRecord& record) {
   Json outputs = Json::array();
@@ -31,6 +26,13 @@ Json outputs_json(const CacheRecord& record) {
   return outputs;
 }
 
+/// It becomes the name of a file.
+std::string hash_at(const Json& json) {
+  std::string hash = json.at("hash").get<std::string>();
+  if (!is_content_hash(hash)) throw Error("a record names a file by what is no hash");
+  return hash;
+}
+
 CacheRecord from_json(const Json& json) {
   CacheRecord record;
   record.key = json.at("key").get<std::string>();
@@ -42,14 +44,13 @@ CacheRecord from_json(const Json& json) {
     auto& output = record.outputs.emplace_back(CacheRecord::Output{json_output.at("port").get<std::string>(),
                                                                    json_output.at("type").get<std::string>(),
                                                                    json_output.at("bytes").get<std::uint64_t>(),
-                                                                   json_output.at("hash").get<std::string>(),
+                                                                   hash_at(json_output),
                                                                    {}});
     for (const auto& fact : json_output.at("facts")) output.facts.push_back(read_fact(fact));
   }
   record.warnings = json.at("warnings").get<std::vector<std::string>>();
   for (const auto& file : json.at("files"))
-    record.files.push_back({file.at("path").get<std::string>(), file.at("bytes").get<std::uint64_t>(),
-                            file.at("hash").get<std::string>()});
+    record.files.push_back({file.at("path").get<std::string>(), file.at("bytes").get<std::uint64_t>(), hash_at(file)});
   record.wall = json.at("wall_seconds").get<double>();
   record.cpu = json.at("cpu_seconds").get<double>();
   record.peak_memory = json.at("peak_memory").get<std::uint64_t>();
@@ -78,14 +79,14 @@ std::string record_text(const CacheRecord& record) {
                   {"peak_memory", record.peak_memory},
                   {"growth", record.growth ? Json(*record.growth) : Json()}};
   const std::string text = json_text(json) + "\n";
-  return hash_of(text) + "\n" + text;
+  return hash_of_text(text) + "\n" + text;
 }
 
 std::optional<CacheRecord> read_record(const std::string& text) {
   const std::size_t line = text.find('\n');
   if (line == std::string::npos) return std::nullopt;
   const std::string_view rest = std::string_view(text).substr(line + 1);
-  if (hash_of(rest) != std::string_view(text).substr(0, line)) return std::nullopt;
+  if (hash_of_text(rest) != std::string_view(text).substr(0, line)) return std::nullopt;
   try {
     const Json json = read_json(rest);
     if (json.at("version") != version) return std::nullopt;
@@ -93,6 +94,8 @@ std::optional<CacheRecord> read_record(const std::string& text) {
     if (NodeKey{record.fields}.hex() != record.key) return std::nullopt;
     return record;
   } catch (const Json::exception&) {
+    return std::nullopt;
+  } catch (const Error&) {
     return std::nullopt;
   }
 }

@@ -1,20 +1,16 @@
 #include "graph/cache/upkeep.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
-#include <csignal>
-#include <cstring>
-#include <fstream>
+#include <ctime>
 
+#include "graph/api/context.hpp"
 #include "graph/api/error.hpp"
 #include "graph/api/files.hpp"
+#include "graph/api/folder_lock.hpp"
 #include "graph/cache/blob.hpp"
 #include "graph/cache/cache_folder.hpp"
 #include "graph/cache/file_hashes.hpp"
@@ -25,15 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the process that was writing the file (".NAME.PID-NUMBER.part") is gone. In a shared folder it may be one of
-/// another machine: then the file's age tells.
+/// Whether nobody writes the unfinished file any more. In a shared folder its process may be one of another machine:
+/// then the file's age tells.
 bool is_abandoned(const CacheEntry& entry) {
-  const std::string name = entry.path.stem().string();
-  const std::size_t dot = name.rfind('.');
-  pid_t process = 0;
-  std::from_chars(name.data() + dot + 1, name.data() + name.size(), process);
-  const bool gone = process <= 0 || (::kill(process, 0) != 0 && errno == ESRCH);
-  return gone && std::time(nullptr) - entry.used.tv_sec > 60;
+  constexpr std::time_t minute = 60;
+  constexpr std::time_t day = 24 * 3600;
+  const auto gone = is_writer_gone(entry.path.filename().string());
+  const std::time_t age = std::time(nullptr) - entry.used.tv_sec;
+  return gone ? *gone && age > minute : age > day;
 }
 
 bool remove_file(const fs::path& file) {
@@ -71,23 +66,6 @@ std::optional<CacheProblem> problem_of(const CacheEntry& entry) {
   }
 }
 
-/// Locks a folder unless another process has.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& folder) : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (file_ < 0) throw Error("cannot open the folder " + folder.string() + ": " + std::strerror(errno));
-    held_ = ::flock(file_, LOCK_EX | LOCK_NB) == 0;
-  }
-  ~FolderLock() { ::close(file_); }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-  bool held() const { return held_; }
-
- private:
-  int file_;
-  bool held_ = false;
-};
-
 }  // namespace
 
 CacheContents::Share CacheContents::all() const {
@@ -114,7 +92,7 @@ CacheContents contents_of(const CachePlaces& places) {
 
 std::optional<Removed> collect_garbage(const CachePlaces& places, std::uint64_t most_bytes) {
   check_cache_folder(places);
-  const FolderLock lock(places.folder);
+  const FolderLock lock(places.folder, FolderLock::Kind::alone);
   if (!lock.held()) return std::nullopt;
   Removed removed;
   std::vector<CacheEntry> entries;
@@ -138,7 +116,7 @@ std::optional<Removed> collect_garbage(const CachePlaces& places, std::uint64_t 
     if (removed.left <= most_bytes) break;
     remove(entry);
   }
-  std::ofstream(places.folder / ".collected") << "";
+  AtomicFile(places.folder / ".collected").publish();  // never through a link that somebody has put there
   return removed;
 }
 

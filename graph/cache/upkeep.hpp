@@ -27,7 +27,7 @@ struct Removed {
   std::uint64_t left = 0;  ///< bytes
 };
 /// Removes what has not been used for longest until at most `most_bytes` are left, and unfinished files of processes
-/// that are gone. Nothing: another process is doing it, and this one has not. What is not the cache's own stays: see
+/// that are gone. Returns nothing if another process is removing already. What is not the cache's own stays: see
 /// for_each_entry(). Throws Error if the folder is not that of a cache, or cannot be read.
 std::optional<Removed> collect_garbage(const CachePlaces& places, std::uint64_t most_bytes);
 

@@ -121,9 +121,9 @@ std::unique_ptr<Cache> open_cache(const CacheChoice& choice) {
   } catch (const NoCacheFolder& error) {
     const std::string problem = fmt::format("{} ({})", error.what(), error.help());
     if (!choice.folder.empty()) throw CLI::ValidationError("--cache", problem);
-    fmt::print(stderr, "warning: without a cache: {}\n", problem);
+    say("warning: without a cache: {}\n", problem);
   } catch (const Error& error) {
-    fmt::print(stderr, "warning: without a cache: {}\n", error.what());
+    say("warning: without a cache: {}\n", error.what());
   }
   return nullptr;
 }

@@ -25,7 +25,7 @@ nlohmann::ordered_json to_json(const std::vector<Diagnostic>& findings) {
 
 void print_json(const LoadResult& result) {
   const nlohmann::ordered_json report{{"ok", result.errors.empty()},
-                                      {"nodes", result.pipeline.nodes.size()},
+                                      {"nodes", node_count(result.pipeline)},
                                       {"errors", to_json(result.errors)},
                                       {"warnings", to_json(result.warnings)},
                                       {"missing", result.missing}};
@@ -33,7 +33,7 @@ void print_json(const LoadResult& result) {
 }
 
 void print_check_summary(const LoadResult& result) {
-  const std::size_t nodes = result.pipeline.nodes.size();
+  const std::size_t nodes = node_count(result.pipeline);
   fmt::print("ok: {} node{}", nodes, nodes == 1 ? "" : "s");
   std::string variables, inputs;
   for (const auto& name : result.missing) {
@@ -62,8 +62,8 @@ std::string counted(std::size_t count, std::string_view what) {
 }
 
 void print_findings(const LoadResult& result) {
-  for (const auto& warning : result.warnings) fmt::print(stderr, "{}\n", to_string(warning));
-  for (const auto& error : result.errors) fmt::print(stderr, "{}\n", to_string(error));
+  for (const auto& warning : result.warnings) say("{}\n", to_string(warning));
+  for (const auto& error : result.errors) say("{}\n", to_string(error));
 }
 
 void add_check(CLI::App& app, int& exit_code) {

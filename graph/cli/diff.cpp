@@ -15,6 +15,9 @@ struct DiffArguments {
 int compare(const DiffArguments& options) {
   const report::RunRecord a = report::read_run(options.a);
   const report::RunRecord b = report::read_run(options.b);
+  for (const auto* run : {&a, &b})
+    for (const auto& path : run->outside)
+      say("note: {} is not in the folder {}: it is not compared\n", path, run->folder.string());
   const report::Difference difference = report::compare(a, b, options.pictures);
   fmt::print("{}", options.json ? report::as_json(difference) : report::as_text(difference));
   return options.exit_code && !difference.same() ? failed : ok;

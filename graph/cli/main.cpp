@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -49,8 +50,13 @@ int report(const char* message, const std::string& help, int code) {
 
 int main(int argc, char** argv) {
   namespace cli = atrium::cli;
+  std::signal(SIGCHLD, SIG_DFL);  // if it is ignored, a child's end is not told
   CLI::App app("Atrium: raw indoor point clouds to light planar models, as a graph of nodes.", "atrium");
   app.require_subcommand(1);
+  app.footer(
+      "Environment:\n"
+      "  ATRIUM_PLUGIN_PATH  folders of more plugins (files libatrium_NAME.so), separated by ':'\n"
+      "  ATRIUM_CACHE        folder of the cache, or 'off'");
   app.set_version_flag("--version", "atrium " ATRIUM_VERSION);
   int exit_code = cli::ok;
   cli::add_check(app, exit_code);

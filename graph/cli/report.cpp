@@ -31,7 +31,7 @@ int report(const ReportArguments& options) {
   const std::size_t bytes = report::write_page(target, record, attachments, report::page_template());
   auto notes = record.notes;
   notes.insert(notes.end(), attachments.notes.begin(), attachments.notes.end());
-  for (const auto& note : notes) fmt::print(stderr, "note: {}\n", note);
+  for (const auto& note : notes) say("note: {}\n", note);
   if (options.json) {
     const nlohmann::ordered_json json{{"file", fs::absolute(target).lexically_normal().string()},
                                       {"bytes", bytes},

@@ -45,10 +45,10 @@ Json to_json(const Fact& fact) {
 std::string results_table(const Pipeline& pipeline, const RunResult& result) {
   std::vector<Row> rows;
   std::map<std::string, int> uses;
-  for (const auto& output : pipeline.outputs)
+  for (const auto& output : pipeline[whole].outputs)
     for (const auto& fact : facts_of(output, result)) ++uses[fact.name];
   // A metric's own name suffices unless two outputs have one of that name.
-  for (const auto& output : pipeline.outputs)
+  for (const auto& output : pipeline[whole].outputs)
     for (const auto& fact : facts_of(output, result)) {
       const std::string own = fact.name.empty() ? output.name : fact.name;
       const bool shared = !fact.name.empty() && uses[fact.name] > 1;
@@ -69,7 +69,7 @@ std::string results_table(const Pipeline& pipeline, const RunResult& result) {
 
 std::string results_json(const Pipeline& pipeline, const RunResult& result, const std::filesystem::path& folder) {
   Json outputs = Json::object();
-  for (const auto& output : pipeline.outputs) {
+  for (const auto& output : pipeline[whole].outputs) {
     const auto facts = facts_of(output, result);
     if (facts.empty()) continue;
     Json& json = outputs[output.name] = Json::object();

@@ -45,8 +45,8 @@ void print_run_summary(const RunResult& result, const fs::path& folder) {
     text += fmt::format(" ({} by the cache)", hits);
   for (const auto status : {NodeStatus::failed, NodeStatus::skipped, NodeStatus::cancelled})
     if (number(status) > 0) text += fmt::format(", {} {}", number(status), name_of(status));
-  fmt::print(stderr, "{} in {:.2f} s ({}, at most {} MB); see {}\n", text, result.wall,
-             counted(result.threads, "thread"), result.peak_memory / 1'000'000, folder.string());
+  say("{} in {:.2f} s ({}, at most {} MB); see {}\n", text, result.wall, counted(result.threads, "thread"),
+      result.peak_memory / 1'000'000, folder.string());
 }
 
 // Libraries that bring OpenMP use as many threads as the run; they read this when their plugin is loaded.
@@ -77,7 +77,7 @@ int run_file(const RunArguments& options) {
     return usage;
   }
   for (const auto& problem : result.cache_problems)
-    if (!options.quiet) fmt::print(stderr, "warning: {}\n", problem);
+    if (!options.quiet) say("warning: {}\n", problem);
   if (!options.quiet) print_run_summary(result, run_options.out);
   if (options.json)
     fmt::print("{}", results_json(loaded.pipeline, result, fs::absolute(run_options.out)));

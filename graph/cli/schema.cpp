@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/api/json_text.hpp"
+#include "graph/cli/sweep_schema.hpp"
 #include "graph/cli/verbs.hpp"
 #include "graph/pipeline/registry.hpp"
 
@@ -158,7 +159,13 @@ Json schema_of(const std::vector<const NodeType*>& types) {
 
 void add_schema(CLI::App& app, int& /*exit_code*/) {
   auto* verb = app.add_subcommand("schema", "Prints the JSON schema of pipeline files, for editors.");
-  verb->callback([] {
+  const auto sweep = std::make_shared<bool>(false);
+  verb->add_flag("--sweep", *sweep, "of sweep files instead");
+  verb->callback([sweep] {
+    if (*sweep) {
+      fmt::print("{}\n", json_text(sweep_schema(), 2));
+      return;
+    }
     Registry registry;
     fmt::print("{}\n", json_text(schema_of(registry.all()), 2));
   });

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/api/json_text.hpp"
+#include "graph/cache/build_ids.hpp"
 #include "graph/cache/upkeep.hpp"
 #include "graph/cli/signals.hpp"
 #include "graph/cli/sweep_output.hpp"
@@ -37,8 +38,8 @@ fs::path folder_of(const SweepArguments& options) {
 }
 
 void print_notes(const SweepPlan& plan) {
-  for (const auto& note : plan.notes) fmt::print(stderr, "note: {}\n", note);
-  if (plan.excluded > 0) fmt::print(stderr, "note: {} excluded\n", counted(plan.excluded, "combination"));
+  for (const auto& note : plan.notes) say("note: {}\n", note);
+  if (plan.excluded > 0) say("note: {} excluded\n", counted(plan.excluded, "combination"));
 }
 
 /// "4 of 12 (2.3 s)": the nodes that are to be run.
@@ -53,14 +54,14 @@ std::string shown(const SweepForecast::Variant& variant) {
 void print_forecast(const SweepForecast& forecast, const SweepPlan& plan, std::size_t done) {
   std::string text = fmt::format("{}, {} done; {} in all, ", counted(plan.variants.size(), "variant"), done,
                                  counted(plan.nodes, "node"));
-  text += fmt::format("{} once shared: {} known to the cache, {} to run", plan.merged.nodes.size(), forecast.known,
+  text += fmt::format("{} once shared: {} known to the cache, {} to run", node_count(plan.merged), forecast.known,
                       forecast.to_run);
   if (forecast.to_run > forecast.unknown) {
     text += fmt::format(", about {} one after the other", clock_text(forecast.seconds));
     text += fmt::format(", the largest with {}", size_text(forecast.memory));
     if (forecast.unknown > 0) text += fmt::format(" (without {} that nothing is known of)", forecast.unknown);
   }
-  fmt::print(stderr, "{}\n", text);
+  say("{}\n", text);
 }
 
 void print_plan_json(const SweepForecast& forecast, const SweepPlan& plan, const SweepFile& sweep,
@@ -78,7 +79,7 @@ void print_plan_json(const SweepForecast& forecast, const SweepPlan& plan, const
   }
   const nlohmann::ordered_json json{{"variants", std::move(variants)},
                                     {"nodes", plan.nodes},
-                                    {"merged_nodes", plan.merged.nodes.size()},
+                                    {"merged_nodes", node_count(plan.merged)},
                                     {"nodes_known", forecast.known},
                                     {"nodes_to_run", forecast.to_run},
                                     {"nodes_of_unknown_cost", forecast.unknown},
@@ -97,7 +98,7 @@ int plan(const SweepArguments& options) {
   const fs::path variants = fs::absolute(folder_of(options)) / "variants";
   std::vector<bool> done(plan.variants.size(), false);
   if (fs::exists(variants)) {
-    const std::string build = registry.build();
+    const std::string build = build_of_all(registry);
     for (std::size_t v = 0; v < done.size(); ++v)
       done[v] = reusable_result(variants / plan.variants[v].id, plan, plan.variants[v], build).has_value();
   }
@@ -142,7 +143,7 @@ int run_variants(const SweepArguments& options) {
   if (!options.quiet) print_notes(loaded.load.plan);
   try {
     ConsoleProgress progress(console_options(stderr, options.quiet));
-    result = run_sweep(*loaded.sweep, loaded.load.plan, registry.build(), sweep_options, progress);
+    result = run_sweep(*loaded.sweep, loaded.load.plan, build_of_all(registry), sweep_options, progress);
   } catch (const FolderError& error) {
     return refuse(error);
   }
@@ -176,19 +177,17 @@ void add_sweep(CLI::App& app, int& exit_code) {
   add_common(*ran, *options);
   ran->add_option("-j,--threads", options->threads, "threads; 1: one node after the other (default: one per core)")
       ->check(CLI::Range(1, 1024));
-  ran->add_option("--max-fail", options->max_failures, "end when so many variants have failed")
-      ->check(CLI::Range(1, 1'000'000));
-  ran->add_flag("--fail-fast", options->fail_fast, "end when a variant has failed");
+  ran->add_option("--max-fail", options->max_failures, "stop after so many failures")->check(CLI::Range(1, 1'000'000));
+  ran->add_flag("--fail-fast", options->fail_fast, "stop after the first failure");
   ran->add_flag("-q,--quiet", options->quiet, "no progress and no warnings on stderr, errors only");
   ran->add_flag("--no-hashes", options->no_hashes, "leave the content hashes of outputs out of manifest.json");
   add_cache_options(*ran, options->cache);
-  add_size(*ran, "--mem", options->memory,
-           "a node waits while what runs already may need so much memory with it, as far as it is known from earlier "
-           "runs: 8 GB");
   ran->add_flag(
       "--isolate", options->isolate,
-      "each variant in a process of its own: one that crashes costs that variant only, and --mem is a limit that is "
-      "kept; what a process prints goes to variants/ID/worker.log");
+      "run each variant in a process of its own: a crash costs that variant only; what a process prints goes to "
+      "variants/ID/worker.log");
+  add_size(*ran, "--mem", options->memory, "with --isolate: memory that all processes together may hold, e.g. '8 GB'")
+      ->needs("--isolate");
   ran->add_option("--timeout", options->timeout, "with --isolate: seconds after which a variant is ended; 0: none")
       ->check(CLI::Range(0.0, 1e9))
       ->needs("--isolate");

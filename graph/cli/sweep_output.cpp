@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void print(const std::vector<Diagnostic>& findings) {
-  for (const auto& finding : findings) fmt::print(stderr, "{}\n", to_string(finding));
+  for (const auto& finding : findings) say("{}\n", to_string(finding));
 }
 
 }  // namespace
@@ -36,21 +36,14 @@ LoadedSweep load_sweep(const std::string& file, const std::vector<Override>& set
 
 int print_sweep(const SweepFile& sweep, const SweepPlan& plan, const SweepResult& result, bool json) {
   if (json) {
-    auto variants = nlohmann::ordered_json::array();
-    const Table table = full_table(sweep, plan, result.variants);
-    for (const auto& row : table.rows) {
-      nlohmann::ordered_json entry;
-      for (std::size_t c = 0; c < row.size(); ++c) entry[table.columns[c].title] = row[c];
-      variants.push_back(std::move(entry));
-    }
-    fmt::print("{}\n", json_text(nlohmann::ordered_json{{"variants", std::move(variants)}}, 2));
+    fmt::print("{}\n", json_text(table_json(sweep, plan, result.variants), 2));
   } else {
     fmt::print("{}", as_text(short_table(sweep, plan, result.variants)));
   }
   std::vector<std::string> unknown;
   full_table(sweep, plan, result.variants, &unknown);
   for (const auto& problem : unknown)
-    fmt::print(stderr, "atrium: error: {}\n  help: the names are in variants/*/result.json\n", problem);
+    say("atrium: error: {}\n  help: the names are in variants/*/result.json\n", problem);
   std::size_t failures = 0;
   std::size_t cancelled = 0;
   for (const auto& variant : result.variants) {
@@ -75,23 +68,23 @@ void print_summary(const SweepResult& result, const fs::path& folder) {
   for (const auto& [status, number] : count)
     if (status != VariantStatus::ok) text += fmt::format(", {} {}", number, name_of(status));
   if (result.known > 0) text += fmt::format("; {} of {} by the cache", result.known, counted(result.nodes, "node"));
-  fmt::print(stderr, "{} in {:.2f} s; see {}\n", text, result.wall, folder.string());
+  say("{} in {:.2f} s; see {}\n", text, result.wall, folder.string());
 }
 
 int finish_sweep(const LoadedSweep& loaded, const SweepResult& result, Registry& registry, const SweepOptions& options,
                  bool json, bool quiet) {
   const auto problems = write_sheets(*loaded.sweep, loaded.load.plan, result.variants, registry, options);
-  for (const auto& problem : problems) fmt::print(stderr, "atrium: error: {}\n", problem);
+  for (const auto& problem : problems) say("atrium: error: {}\n", problem);
   for (const auto& problem : result.cache_problems)
-    if (!quiet) fmt::print(stderr, "warning: {}\n", problem);
+    if (!quiet) say("warning: {}\n", problem);
   if (!quiet) print_summary(result, options.out);
   const int code = print_sweep(*loaded.sweep, loaded.load.plan, result, json);
   return code == ok && !problems.empty() ? failed : code;
 }
 
 int refuse(const FolderError& error) {
-  fmt::print(stderr, "atrium: error: {}\n", error.what());
-  if (!error.help().empty()) fmt::print(stderr, "  help: {}\n", error.help());
+  say("atrium: error: {}\n", error.what());
+  if (!error.help().empty()) say("  help: {}\n", error.help());
   return usage;
 }
 

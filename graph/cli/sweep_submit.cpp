@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 #include <sys/wait.h>
 
-#include <cstdlib>
+#include <algorithm>
 
+#include "graph/api/supervised_process.hpp"
+#include "graph/cache/build_ids.hpp"
 #include "graph/cache/upkeep.hpp"
 #include "graph/cli/sweep_output.hpp"
+#include "graph/sweep/recorder.hpp"
 #include "graph/sweep/submission.hpp"
 
 namespace atrium::cli {
@@ -23,17 +26,42 @@ struct SubmitArguments {
   CacheChoice cache;
 };
 
-/// Whether the shell finds a program.
-bool is_installed(const std::string& name) {
-  return std::system(fmt::format("command -v {} >/dev/null 2>&1", name).c_str()) == 0;  // NOLINT(concurrency-mt-unsafe)
+void check_engine(const std::string& engine) {
+  try {
+    program_file(engine == "slurm" ? "sbatch" : "parallel");
+  } catch (const Error& missing) {
+    throw Error(missing.what(), fmt::format("apt-get install {}; or look at it with --dry-run",
+                                            engine == "slurm" ? "slurm-client" : "parallel"));
+  }
 }
 
-void check_engine(const std::string& engine) {
-  const std::string program = engine == "slurm" ? "sbatch" : "parallel";
-  if (!is_installed(program))
-    throw Error(fmt::format("there is no program '{}'", program),
-                fmt::format("apt-get install {}; or look at it with --dry-run",
-                            engine == "slurm" ? "slurm-client" : "parallel"));
+/// How many of the submitted variants have left a result.
+std::size_t results_in(const fs::path& out, const SweepPlan& plan, const std::string& build) {
+  return static_cast<std::size_t>(std::count_if(
+      plan.variants.begin(), plan.variants.end(),
+      [&](const SweepVariant& variant) { return read_result(variant_folder(out, variant), build).has_value(); }));
+}
+
+/// Hands the scripts to the engine, and says what came of it.
+int run_scripts(const SubmitArguments& options, const SweepPlan& plan, const Submission& submission,
+                const SubmitScripts& scripts, const fs::path& out) {
+  const std::size_t before = results_in(out, plan, submission.build);
+  const int status = run_program({"/bin/sh", scripts.submit_file.string()});
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  // GNU parallel returns how many jobs failed: it is for `gather` to say what became of the variants.
+  if (code != 0 && (options.engine == "slurm" || code > 101)) {
+    say("atrium: error: {} ended with exit code {}\n", scripts.submit_file.string(), code);
+    return failed;
+  }
+  if (options.engine == "slurm") {
+    say("{} submitted; their table: atrium sweep gather {}\n", counted(scripts.variants, "variant"), options.out);
+    return ok;
+  }
+  const std::size_t all = plan.variants.size();
+  const std::size_t done = results_in(out, plan, submission.build);
+  say("{} of {} have a result; their table: atrium sweep gather {}\n", done, counted(all, "variant"), options.out);
+  if (done < all) say("  help: what the others printed is in {}/*.log\n", scripts.submit_file.parent_path().string());
+  return done < before + scripts.variants ? failed : ok;
 }
 
 int submit(const SubmitArguments& options) {
@@ -54,7 +82,7 @@ int submit(const SubmitArguments& options) {
   submission.sweep = loaded.sweep->path;
   submission.settings = options.settings;
   submission.folder = fs::current_path();
-  submission.build = registry.build();
+  submission.build = build_of_all(registry);
   submission.engine = options.engine;
   submission.arguments = worker_arguments(options.cache, cache.get(), options.no_hashes);
   submission.cache = cache == nullptr ? "" : cache->places().folder.string();
@@ -67,7 +95,7 @@ int submit(const SubmitArguments& options) {
     return refuse(error);
   }
   if (scripts.variants == 0) {
-    fmt::print(stderr, "all variants are done already: `atrium sweep run` prints their table\n");
+    say("all variants are done already: `atrium sweep run` prints their table\n");
     return ok;
   }
   if (options.dry) {
@@ -75,17 +103,7 @@ int submit(const SubmitArguments& options) {
     fmt::print("# {}\n{}", scripts.submit_file.string(), scripts.submit);
     return ok;
   }
-  const int status =
-      std::system(fmt::format("sh '{}'", scripts.submit_file.string()).c_str());  // NOLINT(concurrency-mt-unsafe)
-  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  // GNU parallel returns how many jobs failed: it is for `gather` to say what became of the variants.
-  if (code != 0 && (options.engine == "slurm" || code > 100)) {
-    fmt::print(stderr, "atrium: error: {} ended with exit code {}\n", scripts.submit_file.string(), code);
-    return failed;
-  }
-  fmt::print(stderr, "{} {}; their table: atrium sweep gather {}\n", counted(scripts.variants, "variant"),
-             options.engine == "slurm" ? "submitted" : "run", options.out);
-  return ok;
+  return run_scripts(options, loaded.load.plan, submission, scripts, submit_options.out);
 }
 
 int gather(const SubmitArguments& options) {

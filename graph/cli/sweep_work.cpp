@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "graph/cache/upkeep.hpp"
+#include "graph/cache/build_ids.hpp"
 #include "graph/cli/signals.hpp"
 #include "graph/cli/verbs.hpp"
 #include "graph/pipeline/registry.hpp"
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 struct WorkArguments {
   std::string folder;
   std::vector<std::string> tasks, skipped;
-  std::string build, memory;
+  std::string build;
   int threads = 0;
   bool here = false, no_hashes = false;
   CacheChoice cache;
@@ -57,7 +57,6 @@ int work_here(const WorkArguments& options) {
   worker.run.threads = options.threads;
   worker.run.hashes = !options.no_hashes;
   worker.run.cancel = signals.flag();
-  if (!options.memory.empty()) worker.run.memory = read_size(options.memory);
   EventSink events(WorkerProcess::events_file);
   run_worker(task_of(folder, options.tasks), worker, registry, events);
   return ok;
@@ -69,7 +68,7 @@ int work(const WorkArguments& options) {
   Registry registry;
   ConsoleProgress progress(console_options(stderr, false));
   run_shard(fs::absolute(options.folder).lexically_normal(), options.tasks.front(), own_program(), options.threads,
-            registry.build(), signals.flag(), registry, progress);
+            build_of_all(registry), signals.flag(), registry, progress);
   return signals.flag()->load() ? signals.exit_code() : ok;
 }
 
@@ -99,7 +98,6 @@ void add_sweep_work(CLI::App& sweep, int& exit_code) {
       ->allow_extra_args(false);
   verb->add_option("--build", options->build, "what the sweep was begun with");
   verb->add_option("-j,--threads", options->threads, "threads")->check(CLI::Range(1, 1024));
-  verb->add_option("--mem", options->memory, "memory");
   verb->add_flag("--no-hashes", options->no_hashes, "no content hashes of outputs");
   add_cache_options(*verb, options->cache);
   verb->callback([options, &exit_code] { exit_code = options->here ? work_here(*options) : work(*options); });

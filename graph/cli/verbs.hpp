@@ -1,5 +1,8 @@
 #pragma once
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -47,6 +50,13 @@ std::unique_ptr<Cache> open_cache(const CacheChoice& choice);
 std::vector<std::string> worker_arguments(const CacheChoice& choice, const Cache* cache, bool no_hashes);
 /// The path of this program.
 std::string own_program();
+
+/// Prints on stderr. That it cannot be printed (closed, full) is no reason to end otherwise than by what was done.
+template <class... Arguments>
+void say(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+  const std::string whole = fmt::format(text, std::forward<Arguments>(arguments)...);
+  std::fwrite(whole.data(), 1, whole.size(), stderr);
+}
 
 /// "1 node", "2 nodes".
 std::string counted(std::size_t count, std::string_view what);

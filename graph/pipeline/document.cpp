@@ -281,6 +281,14 @@ class DocumentReader {
   Findings& findings_;
 };
 
+/// Files that people hand over in the place of a pipeline: point clouds and meshes.
+bool is_other_format(std::string_view text) {
+  constexpr std::string_view beginnings[] = {"ply\n", "ply\r", "# .PCD",   "VERSION .7", "VERSION 0.7",
+                                             "LASF",  "glTF",  "ASTM-E57", "solid "};
+  return std::any_of(std::begin(beginnings), std::end(beginnings),
+                     [&](std::string_view beginning) { return text.starts_with(beginning); });
+}
+
 }  // namespace
 
 bool parse_seed(std::string_view text, std::uint64_t& seed) {
@@ -293,18 +301,23 @@ std::unique_ptr<Document> read_document(const std::filesystem::path& path, std::
   auto document = std::make_unique<Document>();
   std::error_code ignored;
   document->identity = std::filesystem::weakly_canonical(path, ignored).string();
-  document->source = {std::move(name), path.parent_path(), order, is_png(path)};
   YamlTree tree;
+  const auto text = read_yaml_text(path.string(), tree);
+  document->source = {std::move(name), path.parent_path(), order, text && is_png_text(*text)};
   if (document->source.picture) {
     try {
-      tree = parse_yaml(read_png_stamp(path).resolved);
+      tree = parse_yaml(read_png_stamp(*text, path).resolved);
     } catch (const Error& error) {
       findings.error({&document->source, {}}, error.what(), error.help());
       return nullptr;
     }
     document->source.folder = std::filesystem::current_path(ignored);
-  } else {
-    tree = read_yaml(path.string());
+  } else if (text && is_other_format(*text)) {
+    findings.error({&document->source, {}}, "this is no pipeline file, but data",
+                   fmt::format("to run a pipeline on it: atrium run atrium.yaml -s scan={}", document->source.name));
+    return nullptr;
+  } else if (text) {
+    tree = parse_yaml(*text);
   }
   for (const auto& problem : tree.problems)
     findings.error({&document->source, problem.place}, problem.message, problem.help);

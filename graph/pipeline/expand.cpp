@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::string_view how_to_build = "./share/build, or ninja -C build, builds all of Atrium";
 constexpr std::size_t most_nodes = 100'000;
+constexpr std::size_t most_scopes = 20'000;
 constexpr int deepest_chain = 32;
 
 std::vector<std::string> names_of(const std::vector<Setting>& settings) {
@@ -129,7 +130,7 @@ void Expander::fill(Scope& scope) {
   scope.dormant = dormant_nodes(scope);
   settle_variables(scope);
   for (const auto& node : scope.document->nodes) {
-    if (expansion_.nodes.size() > most_nodes) return;
+    if (expansion_.origins.size() > most_nodes || expansion_.scopes.size() > most_scopes) return;
     if (scope.members.contains(node.id.text) || scope.dormant.contains(node.id.text)) continue;
     if (const ParsedOverride* swap = overrides_.take(scope.prefix + node.id.text, "pipeline"); swap != nullptr)
       open_pipeline(scope, swapped(node, *swap), swap);
@@ -220,29 +221,27 @@ void Expander::check_given_variables(const Scope& scope) {
 }
 
 void Expander::add_node(Scope& scope, const DocumentNode& node) {
-  FlatNode flat;
-  flat.path = scope.prefix + node.id.text;
-  flat.scope = &scope;
-  flat.source = &node;
-  flat.swap = overrides_.take(flat.path, "type");
+  PipelineNode vertex;
+  vertex.path = scope.prefix + node.id.text;
+  const NodeOrigin origin{&scope, &node, overrides_.take(vertex.path, "type")};
   Where where = scope.at(node.type.place);
   std::string type = node.type.text;
   std::vector<std::string> notes;
-  if (flat.swap != nullptr) {
-    type = flat.swap->setting.value.items.empty() ? "" : flat.swap->setting.value.items.front();
-    notes.push_back(flat.swap->note);
-    if (node.type.place.line == 0) where = flat.where();
+  if (origin.swap != nullptr) {
+    type = origin.swap->setting.value.items.empty() ? "" : origin.swap->setting.value.items.front();
+    notes.push_back(origin.swap->note);
+    if (node.type.place.line == 0) where = origin.where();
   }
   if (!type.empty()) {
-    flat.type = registry_.find(type);
-    if (flat.type == nullptr)
+    vertex.type = registry_.find(type);
+    if (vertex.type == nullptr)
       report_unknown_type(where, type, notes);
-    else if (!Registry::missing_library(*flat.type).empty())
+    else if (!Registry::missing_library(*vertex.type).empty())
       findings_.error(where, fmt::format("'{}' is not built", type), std::string(how_to_build), notes);
   }
-  scope.members.emplace(node.id.text, Member{expansion_.nodes.size(), nullptr});
-  expansion_.nodes.push_back(std::move(flat));
-  if (expansion_.nodes.size() == most_nodes + 1)
+  scope.members.emplace(node.id.text, Member{atrium::add_node(std::move(vertex), expansion_.graph), nullptr});
+  expansion_.origins.push_back(origin);
+  if (expansion_.origins.size() == most_nodes + 1)
     findings_.error(scope.at(node.id.place), fmt::format("the pipeline has more than {} nodes", most_nodes));
 }
 
@@ -265,7 +264,10 @@ void Expander::open_pipeline(Scope& scope, const DocumentNode& node, const Parse
                     fmt::format("its nodes have: {}/NODE.type=TYPE", path), {set->note});
     overrides_.take(path, "type");
   }
-  if (const Document* document = document_of(scope, node, swap); document != nullptr) {
+  if (expansion_.scopes.size() == most_scopes)
+    findings_.error(scope.at(node.id.place), fmt::format("the pipeline has more than {} sub-pipelines", most_scopes));
+  const bool full = expansion_.scopes.size() > most_scopes;
+  if (const Document* document = full ? nullptr : document_of(scope, node, swap); document != nullptr) {
     Scope& inner = expansion_.scopes.emplace_back();
     inner.document = document;
     inner.parent = &scope;

@@ -26,7 +26,7 @@ struct Scope;
 /// What a name in `nodes` stands for: a node or an opened sub-pipeline; neither when it could not be opened.
 struct Member {
   static constexpr std::size_t none = ~std::size_t{0};
-  std::size_t node = none;
+  std::size_t node = none;  ///< of the graph
   Scope* scope = nullptr;
 };
 
@@ -44,22 +44,12 @@ struct Scope {
   Where at(Place place) const { return {&document->source, place}; }
 };
 
-struct FlatEdge {
-  Edge from;
-  Where where;       ///< of the reference
-  std::string text;  ///< "planes.planes"
-};
-
-/// A node with its address in the whole pipeline.
-struct FlatNode {
-  std::string path;
+/// Where a node of the dataflow stands in the files.
+struct NodeOrigin {
   const Scope* scope = nullptr;
   const DocumentNode* source = nullptr;
-  const NodeType* type = nullptr;        ///< null when there is none: reported, not checked further
   const ParsedOverride* swap = nullptr;  ///< the -s that replaced its type
-  std::vector<ParamValue> params;
-  std::vector<std::vector<FlatEdge>> inputs;  ///< per input port
-  bool used = false;                          ///< something reads one of its outputs, or its file exports one
+  bool used = false;                     ///< something reads one of its outputs, or its file exports one
 
   Where where() const { return scope->at(source->id.place); }
 };
@@ -67,12 +57,13 @@ struct FlatNode {
 /// The pipeline with its sub-pipelines opened, before and while it is checked.
 struct Expansion {
   std::vector<std::shared_ptr<const Document>> documents;
-  ReadDocuments* read = nullptr;     ///< what reads them
-  std::deque<Scope> scopes;          ///< the outermost first
-  std::deque<DocumentNode> swapped;  ///< nodes that a setting made sub-pipelines of another file
-  std::vector<FlatNode> nodes;
+  ReadDocuments* read = nullptr;               ///< what reads them
+  std::deque<Scope> scopes;                    ///< the outermost first
+  std::deque<DocumentNode> swapped;            ///< nodes that a setting made sub-pipelines of another file
+  Dataflow graph;                              ///< a node without a type (null) is reported, and not checked further
+  std::vector<NodeOrigin> origins;             ///< of the graph's nodes
+  bool any_files = false;                      ///< files that nodes read need not exist
   std::vector<std::string> missing_variables;  ///< of the outermost file, without a value
-  std::vector<PipelineOutput> outputs;
 };
 
 /// Opens sub-pipelines (recursively, each file read once), settles variables, finds node types and applies swaps.
@@ -121,10 +112,8 @@ SettledValue settle(const Setting& setting, const Scope& scope, const SourceFile
 /// Reads the parameters of every node: bounds, units, files that must exist, files that are written twice.
 void settle_params(Expansion& expansion, Overrides& overrides, Findings& findings);
 
-/// Joins the nodes: ports, their types, what is not wired or not used. Fills inputs and outputs.
+/// Joins the nodes: ports, their types, what is not wired or not used, cycles with their path. Makes the edges and the
+/// outputs.
 void wire(Expansion& expansion, Findings& findings);
-
-/// The nodes in an order in which they can run (ties by the order of the file). Cycles are reported with their path.
-std::vector<std::size_t> run_order(const Expansion& expansion, Findings& findings);
 
 }  // namespace atrium

@@ -20,12 +20,13 @@ void check_versions(const Expansion& expansion, Findings& findings) {
           findings.warning(where, fmt::format("written by Atrium {}, this is {}", version.text, framework_version()));
         continue;
       }
-      const auto same = [&, &name = type.text](const FlatNode& node) {
-        return node.type != nullptr && node.type->type == name;
-      };
-      const auto node = std::find_if(expansion.nodes.begin(), expansion.nodes.end(), same);
-      if (node == expansion.nodes.end()) continue;  // swapped for another type
-      const std::string present = std::to_string(node->type->version);
+      const Dataflow& graph = expansion.graph;
+      const auto nodes = all_nodes(graph);
+      const auto node = std::find_if(nodes.begin(), nodes.end(), [&, &name = type.text](std::size_t n) {
+        return graph[n].type != nullptr && graph[n].type->type == name;
+      });
+      if (node == nodes.end()) continue;  // swapped for another type
+      const std::string present = std::to_string(graph[*node].type->version);
       if (version.text != present)
         findings.error(
             where, fmt::format("the file wants version {} of {}, this is version {}", version.text, type.text, present),
@@ -34,46 +35,39 @@ void check_versions(const Expansion& expansion, Findings& findings) {
   }
 }
 
+/// People take a picture for something that does nothing.
+void check_programs(const Document& root, const Expansion& expansion, Findings& findings) {
+  if (!root.source.picture) return;
+  for (const std::size_t n : all_nodes(expansion.graph))
+    if (const PipelineNode& node = expansion.graph[n]; node.type != nullptr && node.type->runs_programs)
+      findings.error(expansion.origins[n].where(),
+                     fmt::format("the picture's pipeline would start a program: '{}' ({})", node.path, node.type->type),
+                     "if you know where the picture comes from, run the resolved.yaml beside it");
+}
+
 /// Nodes that lead to a file or an output of the outermost file. A sub-pipeline's output that nobody reads is not made.
-std::vector<bool> needed_nodes(const Expansion& expansion, const std::vector<std::size_t>& order) {
-  std::vector<bool> needed(expansion.nodes.size(), false);
-  for (const auto& output : expansion.outputs) needed[output.from.node] = true;
-  for (auto it = order.rbegin(); it != order.rend(); ++it) {
-    const FlatNode& node = expansion.nodes[*it];
-    // A file with inputs is not complete on its own: all that it holds counts.
-    needed[*it] = needed[*it] || node.type->sink;
-    if (needed[*it])
-      for (const auto& port : node.inputs)
-        for (const auto& edge : port) needed[edge.from.node] = true;
-  }
-  return needed;
+std::vector<bool> needed_nodes(const Dataflow& graph) {
+  std::vector<bool> ends(node_count(graph), false);
+  for (const auto& output : graph[whole].outputs) ends[output.from.node] = true;
+  for (const std::size_t n : all_nodes(graph)) ends[n] = ends[n] || graph[n].type->sink;
+  return with_sources(ends, graph);
 }
 
-void build_pipeline(Expansion& expansion, const std::vector<std::size_t>& order, Pipeline& pipeline) {
-  const std::vector<bool> needed = needed_nodes(expansion, order);
-  std::vector<std::size_t> place(expansion.nodes.size(), 0);
-  for (const std::size_t index : order) {
-    if (!needed[index]) continue;
-    place[index] = pipeline.nodes.size();
-    FlatNode& flat = expansion.nodes[index];
-    PipelineNode node{std::move(flat.path), flat.type, std::move(flat.params), {}};
-    node.seed = node_seed(pipeline.seed, node.path);
-    for (const auto& port : flat.inputs) {
-      auto& edges = node.inputs.emplace_back();
-      for (const auto& edge : port) edges.push_back({place[edge.from.node], edge.from.output});
-    }
-    pipeline.nodes.push_back(std::move(node));
-  }
-  for (const auto& output : expansion.outputs)
-    pipeline.outputs.push_back({output.name, {place[output.from.node], output.from.output}});
+Pipeline checked_pipeline(const Dataflow& graph) {
+  const std::vector<bool> needed = needed_nodes(graph);
+  std::vector<std::size_t> order = topological_order(graph);
+  std::erase_if(order, [&](std::size_t n) { return !needed[n]; });
+  Pipeline pipeline = part_of(graph, order);
+  for (const std::size_t n : all_nodes(pipeline)) pipeline[n].seed = node_seed(pipeline[whole].seed, pipeline[n].path);
+  return pipeline;
 }
 
-void read_seed(const Document& root, Overrides& overrides, Findings& findings, Pipeline& pipeline) {
-  pipeline.seed = root.seed;
+void read_seed(const Document& root, Overrides& overrides, Findings& findings, std::uint64_t& seed) {
+  seed = root.seed;
   const ParsedOverride* set = overrides.take("", "seed");
   if (set == nullptr || set->setting.broken) return;
   const bool single = set->setting.value.items.size() == 1 && !set->setting.value.is_list;
-  if (!single || !parse_seed(set->setting.value.items.front(), pipeline.seed))
+  if (!single || !parse_seed(set->setting.value.items.front(), seed))
     findings.error({&root.source, {}}, "the seed is not a whole number from 0 to 18446744073709551615", {},
                    {set->note});
 }
@@ -110,22 +104,24 @@ LoadResult load_pipeline(const std::filesystem::path& file, const std::vector<Ov
   Expansion expansion;
   const GivenPipeline found = find_given_pipeline(file.string(), findings);
   ReadDocuments own;
+  expansion.any_files = options.any_files;
   expansion.read = options.documents == nullptr ? &own : options.documents;
   auto document = findings.error_count() > 0 ? nullptr : expansion.read->read(found.path, found.name, 0, findings);
   if (document) {
     const Document& root = *document;
     expansion.documents.push_back(std::move(document));
     Overrides overrides(given, root.source, findings);
-    result.pipeline.summary = root.summary;
-    result.pipeline.file = found.path;
-    read_seed(root, overrides, findings, result.pipeline);
+    PipelineProperties& properties = expansion.graph[whole];
+    properties.summary = root.summary;
+    properties.file = found.path;
+    read_seed(root, overrides, findings, properties.seed);
     Expander(expansion, overrides, registry, findings).expand(root);
     settle_params(expansion, overrides, findings);
     wire(expansion, findings);
-    const std::vector<std::size_t> order = run_order(expansion, findings);
     check_versions(expansion, findings);
+    check_programs(root, expansion, findings);
     check_complete(root, expansion, options, result, findings);
-    if (findings.error_count() == 0) build_pipeline(expansion, order, result.pipeline);
+    if (findings.error_count() == 0) result.pipeline = checked_pipeline(expansion.graph);
   }
   result.errors = findings.errors();
   result.warnings = findings.warnings();

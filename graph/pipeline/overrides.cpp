@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "graph/pipeline/utf8.hpp"
+
 namespace atrium {
 namespace {
 
@@ -48,7 +50,9 @@ void Overrides::add(const Override& given, const SourceFile& root, Findings& fin
   YamlNode node;
   node.kind = YamlNode::Kind::scalar;
   node.text = value;
-  if (is_yaml(value)) {
+  if (given.value) {
+    node = *given.value;
+  } else if (is_yaml(value)) {
     const YamlTree tree = parse_yaml(value);
     if (!tree.root || !tree.problems.empty()) {
       fail(fmt::format("'{}' cannot be read: {}", value, tree.problems.front().message), tree.problems.front().help);
@@ -56,7 +60,13 @@ void Overrides::add(const Override& given, const SourceFile& root, Findings& fin
     }
     node = *tree.root;
   }
-  if (value.empty()) {
+  if (const std::size_t bad = first_not_text(given.text); bad != std::string::npos && !given.value) {
+    fail(fmt::format("'{}' is set to text that is not UTF-8: its byte {} is 0x{:02x}", target, bad,
+                     static_cast<unsigned char>(given.text[bad])),
+         "files name everything in UTF-8: rename the file (convmv does it for many)");
+    return;
+  }
+  if (value.empty() && !given.value) {
     fail(fmt::format("'{}' is set to nothing", target), "write a value after '='; an empty text is '\"\"'");
     return;
   }

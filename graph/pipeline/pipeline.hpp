@@ -1,44 +1,18 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "graph/api/node.hpp"
+#include "graph/pipeline/dataflow.hpp"
+#include "graph/pipeline/yaml_tree.hpp"
 
 namespace atrium {
 
-/// Where an edge comes from.
-struct Edge {
-  std::size_t node = 0;    ///< index into Pipeline::nodes
-  std::size_t output = 0;  ///< index into that node type's outputs
-};
-
-/// One node of a pipeline, sub-pipelines opened up.
-struct PipelineNode {
-  std::string path;                       ///< its address: "planes", "shell/translate"
-  const NodeType* type = nullptr;         ///< owned by the Registry
-  std::vector<ParamValue> params;         ///< one per parameter of the type, defaults filled in, paths absolute
-  std::vector<std::vector<Edge>> inputs;  ///< one list per input port: 0, 1 or many edges
-  std::uint64_t seed = 0;                 ///< of its random streams: from the run's seed and the node's path
-  std::filesystem::path folder;           ///< where it writes, relative to the run's folder
-};
-
-struct PipelineOutput {
-  std::string name;
-  Edge from;
-};
-
-/// A pipeline that has passed every check: nodes are in an order in which they can run (Boost.Graph's topological sort,
-/// ties by the order of the file), every edge joins equal port types, every parameter is in its bounds, every input
-/// file exists.
-struct Pipeline {
-  std::string summary;
-  std::uint64_t seed = 1;
-  std::filesystem::path file;
-  std::vector<PipelineNode> nodes;
-  std::vector<PipelineOutput> outputs;
-};
+/// A dataflow that has passed every check: nodes are in an order in which they can run (ties by the order of the file),
+/// every edge joins equal port types, every parameter is in its bounds, every input file exists.
+using Pipeline = Dataflow;
 
 /// One finding, as a compiler prints it.
 struct Diagnostic {
@@ -55,6 +29,8 @@ struct Override {
   std::string text;              ///< as given, without -s
   std::string origin;            ///< what notes name: "-s planes.distance=1cm"
   std::filesystem::path folder;  ///< what relative paths in it are relative to; empty: the working folder
+  /// The value as another file has it; `text` then only names what is set. Nothing: it stands in `text`.
+  std::optional<YamlNode> value = std::nullopt;
 };
 
 struct LoadResult {
@@ -71,6 +47,7 @@ struct LoadOptions {
   /// is no error. Such a pipeline can be looked at, not run.
   bool allow_missing = false;
   ReadDocuments* documents = nullptr;  ///< files that were read by earlier calls; null: all are read
+  bool any_files = false;              ///< files that nodes read need not exist: for who only looks at the graph
 };
 
 class Registry;
@@ -87,7 +64,8 @@ std::uint64_t node_seed(std::uint64_t run_seed, std::string_view path);
 std::string_view framework_version();
 
 /// The pipeline as a file that gives the same bytes when it is run: every default, the seed, absolute paths, no
-/// variables, no sub-pipelines (ids with '/' stay addresses). With a folder, the paths within it are relative to it.
-std::string resolved_yaml(const Pipeline& pipeline, const std::filesystem::path& folder = {});
+/// variables, no sub-pipelines (ids with '/' stay addresses). With a folder, the paths within it are relative to it;
+/// with `all`, those outside of it, too.
+std::string resolved_yaml(const Pipeline& pipeline, const std::filesystem::path& folder = {}, bool all = false);
 
 }  // namespace atrium

@@ -5,13 +5,13 @@
 #include <boost/crc.hpp>
 #include <cstdint>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "graph/api/context.hpp"
 #include "graph/api/error.hpp"
+#include "graph/api/files.hpp"
 #include "graph/api/value.hpp"
 
 namespace atrium {
@@ -43,13 +43,6 @@ std::uint32_t crc_of(std::string_view type_and_data) {
   boost::crc_32_type crc;
   crc.process_bytes(type_and_data.data(), type_and_data.size());
   return crc.checksum();
-}
-
-std::string read_bytes(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!in.is_open() || in.bad()) throw Error("cannot read " + file.string());
-  return bytes;
 }
 
 /// All chunks from IHDR to IEND, each checked. What follows IEND is left out.
@@ -122,7 +115,7 @@ bool is_png(const std::filesystem::path& file) {
 }
 
 void stamp_png(const std::filesystem::path& file, const PngStamp& stamp) {
-  const std::string bytes = read_bytes(file);
+  const std::string bytes = read_text(file);
   AtomicFile result(file);
   result.write(signature);
   bool first = true;
@@ -134,8 +127,11 @@ void stamp_png(const std::filesystem::path& file, const PngStamp& stamp) {
   result.commit();
 }
 
-PngStamp read_png_stamp(const std::filesystem::path& file) {
-  const std::string bytes = read_bytes(file);
+bool is_png_text(std::string_view bytes) { return bytes.starts_with(signature); }
+
+PngStamp read_png_stamp(const std::filesystem::path& file) { return read_png_stamp(read_text(file), file); }
+
+PngStamp read_png_stamp(std::string_view bytes, const std::filesystem::path& file) {
   std::optional<std::string> run;
   std::optional<std::string> resolved;
   for (const Chunk& chunk : chunks_of(bytes, file)) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "graph/pipeline/pipeline.hpp"
 
@@ -24,7 +25,11 @@ bool is_png(const std::filesystem::path& file);
 /// is no whole PNG file or cannot be written.
 void stamp_png(const std::filesystem::path& file, const PngStamp& stamp);
 
-/// Reads it back. Throws Error if the file is no whole PNG file or has no stamp.
+/// The same of a file's bytes.
+bool is_png_text(std::string_view bytes);
+
+/// Reads the stamp back from the file's bytes. Throws Error if they are no whole PNG file or have no stamp.
+PngStamp read_png_stamp(std::string_view bytes, const std::filesystem::path& file);
 PngStamp read_png_stamp(const std::filesystem::path& file);
 
 }  // namespace atrium

@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <mutex>
 #include <set>
 
 #include "graph/api/plugin.hpp"
-#include "graph/api/plugin_data.hpp"
 
 namespace atrium {
 namespace {
@@ -199,29 +197,11 @@ void Registry::add(NodeType type) {
   impl_->types.insert_or_assign(std::move(name), std::move(type));
 }
 
-std::string Registry::build() const {
-  std::set<std::filesystem::path> files;
-  std::vector<std::filesystem::path> folders = impl_->folders;
-  if (!folders.empty()) folders.push_back(own_plugin_folder().parent_path());
-  for (const auto& folder : folders) {
-    std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-      if (const std::string name = entry.path().filename().string();
-          name.starts_with("libatrium") && name.find(suffix) != std::string::npos) {
-        files.insert(std::filesystem::canonical(entry.path(), ignored));
-        for (auto& file : plugin_data_files(entry.path())) files.insert(std::move(file));
-      }
-  }
-  ContentHash hash;
-  const auto add = [&](std::string_view text) { hash.bytes(text.data(), text.size()); };
-  add(ATRIUM_STAMP);
-  for (const auto& file : files) {
-    std::ifstream stream(file, std::ios::binary);
-    const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-    add(fmt::format(";{}:{}:", file.filename().string(), bytes.size()));
-    add(bytes);
-  }
-  return hash.hex();
+std::vector<std::filesystem::path> Registry::plugin_files() const {
+  std::vector<std::filesystem::path> files;
+  for (const auto& module : modules())
+    if (auto file = impl_->plugin_file(module); !file.empty()) files.push_back(std::move(file));
+  return files;
 }
 
 std::vector<std::string> Registry::modules() const {

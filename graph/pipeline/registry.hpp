@@ -33,9 +33,8 @@ class Registry {
   bool is_left_out(const std::string& module) const;
   /// The library that holds the type's function when that is not there; else "".
   static std::string missing_library(const NodeType& type);
-  /// A hash over the contents of Atrium's own libraries, of all plugins and of the data files that they read: another
-  /// build, another value.
-  std::string build() const;
+  /// The files of all plugins that can be found, loaded or not, by the name of their modules.
+  std::vector<std::filesystem::path> plugin_files() const;
 
  private:
   struct Impl;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "graph/api/folder_lock.hpp"
 #include "graph/api/suggest.hpp"
 #include "graph/pipeline/expansion.hpp"
 
@@ -10,24 +11,28 @@ namespace atrium {
 namespace {
 
 /// Files that the run itself writes into its folder.
-constexpr std::string_view reserved_files[] = {"resolved.yaml", "manifest.json", "trace.json"};
+constexpr std::string_view reserved_files[] = {"resolved.yaml", "manifest.json", "trace.json", ".written",
+                                               lock_file_name};
 
 class ParamReader {
  public:
   ParamReader(Expansion& expansion, Overrides& overrides, Findings& findings)
       : expansion_(expansion), overrides_(overrides), findings_(findings) {}
 
-  void read(FlatNode& node) {
+  void read(std::size_t n) {
+    PipelineNode& node = expansion_.graph[n];
+    const NodeOrigin& origin = expansion_.origins[n];
     node_ = &node;
+    origin_ = &origin;
     for (const auto& param : node.type->params) node.params.push_back(param.initial);
     std::vector<bool> set(node.params.size(), false);
-    for (const auto& setting : node.source->params) {
+    for (const auto& setting : origin.source->params) {
       const std::size_t index = find(setting.name.text);
       if (index == node.params.size()) {
         report_unknown(setting);
       } else if (overridden(setting.name.text) == nullptr) {
-        const Where where = node.scope->at(setting.place);
-        apply(index, settle(setting, *node.scope, node.scope->document->source, where, findings_), where);
+        const Where where = origin.scope->at(setting.place);
+        apply(index, settle(setting, *origin.scope, origin.scope->document->source, where, findings_), where);
         set[index] = true;
       }
     }
@@ -36,12 +41,12 @@ class ParamReader {
       const ParamInfo& info = node.type->params[i];
       if (set[i]) continue;
       if (is_required(info))
-        findings_.error(
-            node.where(),
-            fmt::format("the parameter '{}' of '{}' ({}) is missing", info.name, node.source->id.text, node.type->type),
-            describe_param(info), notes());
+        findings_.error(origin.where(),
+                        fmt::format("the parameter '{}' of '{}' ({}) is missing", info.name, origin.source->id.text,
+                                    node.type->type),
+                        describe_param(info), notes());
       else
-        place_path(i, node.where(), {}, {&node.scope->document->source});
+        place_path(i, origin.where(), {}, {&origin.scope->document->source});
     }
   }
 
@@ -78,7 +83,7 @@ class ParamReader {
   }
 
   std::vector<std::string> notes() const {
-    return node_->swap == nullptr ? std::vector<std::string>{} : std::vector{node_->swap->note};
+    return origin_->swap == nullptr ? std::vector<std::string>{} : std::vector{origin_->swap->note};
   }
 
   std::pair<std::string, std::string> unknown(const std::string& name) {
@@ -91,12 +96,13 @@ class ParamReader {
       help = fmt::format("{} has no parameters", node_->type->type);
     else
       help = fmt::format("parameters of {}: {}", node_->type->type, join_words(names, 40));
-    return {fmt::format("unknown parameter '{}' of '{}' ({})", name, node_->source->id.text, node_->type->type), help};
+    return {fmt::format("unknown parameter '{}' of '{}' ({})", name, origin_->source->id.text, node_->type->type),
+            help};
   }
 
   void report_unknown(const Setting& setting) {
-    const Where where = node_->scope->at(setting.name.place);
-    if (node_->swap != nullptr && node_->type->type != node_->source->type.text) {
+    const Where where = origin_->scope->at(setting.name.place);
+    if (origin_->swap != nullptr && node_->type->type != origin_->source->type.text) {
       findings_.warning(
           where,
           fmt::format("the parameter '{}' is ignored: {} has none of that name", setting.name.text, node_->type->type),
@@ -110,8 +116,8 @@ class ParamReader {
   void read_overrides(std::vector<bool>& set) {
     for (const auto* override_ : overrides_.of(node_->path)) {
       if (override_->name == "type") continue;
-      Where where = node_->where();
-      for (const auto& setting : node_->source->params)
+      Where where = origin_->where();
+      for (const auto& setting : origin_->source->params)
         if (setting.name.text == override_->name) where.place = setting.place;
       const std::size_t index = find(override_->name);
       if (index == node_->params.size()) {
@@ -134,7 +140,7 @@ class ParamReader {
       node_->params[index] = parse_param(info, value.value);
     } catch (const Error& error) {
       std::vector<std::string> all = value.notes;
-      if (node_->swap != nullptr) all.push_back(node_->swap->note);
+      if (origin_->swap != nullptr) all.push_back(origin_->swap->note);
       findings_.error(where, error.what(), error.help(), std::move(all));
       return;
     }
@@ -165,7 +171,7 @@ class ParamReader {
     const std::filesystem::path full = (base.folder / path).lexically_normal();
     path = full.string();
     std::error_code ignored;
-    if (std::filesystem::exists(full, ignored)) return;
+    if (expansion_.any_files || std::filesystem::exists(full, ignored)) return;
     std::vector<std::string> siblings;
     const bool folder = std::filesystem::is_directory(full.parent_path(), ignored);
     for (const auto& entry : std::filesystem::directory_iterator(full.parent_path(), ignored))
@@ -191,7 +197,7 @@ class ParamReader {
                       "a file within the run's folder: a relative path without '..'", origin);
       return;
     }
-    path = (std::filesystem::path(node_->scope->prefix) / relative).string();
+    path = (std::filesystem::path(origin_->scope->prefix) / relative).string();
     if (std::find(std::begin(reserved_files), std::end(reserved_files), path) != std::end(reserved_files)) {
       findings_.error(where, fmt::format("'{}' is a file that the run itself writes", path), "take another name",
                       origin);
@@ -206,7 +212,8 @@ class ParamReader {
   Expansion& expansion_;
   Overrides& overrides_;
   Findings& findings_;
-  FlatNode* node_ = nullptr;
+  PipelineNode* node_ = nullptr;
+  const NodeOrigin* origin_ = nullptr;
   std::map<std::string, Written> written_;
 };
 
@@ -214,8 +221,8 @@ class ParamReader {
 
 void settle_params(Expansion& expansion, Overrides& overrides, Findings& findings) {
   ParamReader reader(expansion, overrides, findings);
-  for (auto& node : expansion.nodes)
-    if (node.type != nullptr) reader.read(node);
+  for (const std::size_t n : all_nodes(expansion.graph))
+    if (expansion.graph[n].type != nullptr) reader.read(n);
   reader.check_output_files();
 }
 

@@ -12,7 +12,7 @@ namespace {
 /// What a reference leads to.
 struct Endpoint {
   enum class Kind { unknown, node, outside } kind = Kind::unknown;  ///< unknown: reported, or not to be checked
-  Edge edge;
+  Source from;
   std::string type;  ///< of the port
   std::vector<std::string> notes;
 };
@@ -30,16 +30,17 @@ std::string text_of(const Reference& reference) {
   return reference.port.empty() ? reference.node : reference.node + "." + reference.port;
 }
 
-std::vector<std::string> swap_notes(const FlatNode& node) {
-  return node.swap == nullptr ? std::vector<std::string>{} : std::vector{node.swap->note};
+std::vector<std::string> swap_notes(const NodeOrigin& origin) {
+  return origin.swap == nullptr ? std::vector<std::string>{} : std::vector{origin.swap->note};
 }
 
 class Wirer {
  public:
-  Wirer(Expansion& expansion, Findings& findings) : expansion_(expansion), findings_(findings) {}
+  Wirer(Expansion& expansion, Findings& findings)
+      : expansion_(expansion), graph_(expansion.graph), origins_(expansion.origins), findings_(findings) {}
 
   void wire() {
-    for (auto& node : expansion_.nodes) wire_node(node);
+    for (const std::size_t n : all_nodes(graph_)) wire_node(n);
     for (auto& scope : expansion_.scopes) {
       if (scope.node != nullptr) check_pipeline_inputs(scope);
       check_defaults(scope);
@@ -48,11 +49,14 @@ class Wirer {
   }
 
   void check_use() {
-    for (const auto& node : expansion_.nodes)
-      if (node.type != nullptr && !node.used && !node.type->sink)
-        findings_.error(node.where(),
-                        fmt::format("nothing uses the node '{}' ({})", node.source->id.text, node.type->type),
-                        "wire one of its outputs, list it under `outputs:`, or remove the node", swap_notes(node));
+    for (const std::size_t n : all_nodes(graph_)) {
+      const NodeType* type = graph_[n].type;
+      const NodeOrigin& origin = origins_[n];
+      if (type != nullptr && !origin.used && !type->sink)
+        findings_.error(origin.where(),
+                        fmt::format("nothing uses the node '{}' ({})", origin.source->id.text, type->type),
+                        "wire one of its outputs, list it under `outputs:`, or remove the node", swap_notes(origin));
+    }
     const auto with_sinks = scopes_with_sinks();
     for (const auto& scope : expansion_.scopes)
       if (scope.node != nullptr && !scope.used && !with_sinks.contains(&scope))
@@ -62,65 +66,110 @@ class Wirer {
     for (const auto& scope : expansion_.scopes) check_inputs_used(scope);
   }
 
+  void check_cycles() {
+    for (const auto& cycle : cycles_of(graph_)) {
+      std::string path;
+      for (const auto& edge : cycle) {
+        const PipelineNode& from = graph_[boost::source(edge, graph_)];
+        path += fmt::format("{}.{} → ", from.path, from.type->outputs[graph_[edge].output].name);
+      }
+      const std::size_t last = boost::target(cycle.back(), graph_);
+      findings_.error(place_of(cycle.back()), fmt::format("the nodes form a cycle: {}{}", path, graph_[last].path),
+                      "one of these edges must go");
+    }
+  }
+
  private:
-  void wire_node(FlatNode& node) {
-    if (node.type == nullptr) {
-      for (const auto& wiring : node.source->inputs)  // the references can be checked all the same
-        for (const auto& source : wiring.sources) resolve(*node.scope, source, true);
+  /// Where the file wires the edge.
+  Where place_of(const DataflowEdge& edge) const {
+    const std::size_t to = boost::target(edge, graph_);
+    const std::size_t input = graph_[edge].input;
+    for (const auto& wired : origins_[to].source->inputs)
+      if (wired.port.text == graph_[to].type->inputs[input].name)
+        return origins_[to].scope->at(wired.sources.at(graph_[edge].place).place);
+    return origins_[to].where();
+  }
+
+  void wire_node(std::size_t n) {
+    const NodeOrigin& origin = origins_[n];
+    const NodeType* type = graph_[n].type;
+    if (type == nullptr) {
+      for (const auto& wiring : origin.source->inputs)  // the references can be checked all the same
+        for (const auto& source : wiring.sources) resolve(*origin.scope, source, true);
       return;
     }
-    const auto& ports = node.type->inputs;
-    node.inputs.resize(ports.size());
-    std::vector<bool> mentioned(ports.size(), false);
-    for (const auto& wiring : node.source->inputs) {
+    const auto& ports = type->inputs;
+    std::vector<const Wiring*> wired(ports.size(), nullptr);
+    for (const auto& wiring : origin.source->inputs) {
       const std::size_t index = find_port(ports, wiring.port.text);
       if (index == ports.size()) {
-        report_unknown_input(node, wiring.port, names_of(ports));
-        for (const auto& source : wiring.sources) resolve(*node.scope, source, true);
+        report_unknown_input(n, wiring.port, names_of(ports));
+        for (const auto& source : wiring.sources) resolve(*origin.scope, source, true);
         continue;
       }
-      mentioned[index] = true;
-      wire_port(node, index, wiring);
+      wired[index] = &wiring;
     }
-    for (std::size_t i = 0; i < ports.size(); ++i)
-      if (!mentioned[i] && !ports[i].optional)
-        findings_.error(node.where(),
-                        fmt::format("the input '{}' of '{}' ({}) is not wired", ports[i].name, node.source->id.text,
-                                    node.type->type),
-                        fmt::format("it takes {}{}: add `in: {{{}: node.port}}`", ports[i].repeated ? "a list of " : "",
-                                    ports[i].type, ports[i].name),
-                        swap_notes(node));
+    for (std::size_t i = 0; i < ports.size(); ++i) {
+      if (wired[i] != nullptr)
+        wire_port(n, i, *wired[i]);
+      else if (!ports[i].optional)
+        findings_.error(
+            origin.where(),
+            fmt::format("the input '{}' of '{}' ({}) is not wired", ports[i].name, origin.source->id.text, type->type),
+            fmt::format("it takes {}{}: add `in: {{{}: node.port}}`", ports[i].repeated ? "a list of " : "",
+                        ports[i].type, ports[i].name),
+            swap_notes(origin));
+    }
   }
 
-  void report_unknown_input(const FlatNode& node, const Located& port, const std::vector<std::string>& names) {
+  void report_unknown_input(std::size_t n, const Located& port, const std::vector<std::string>& names) {
+    const NodeOrigin& origin = origins_[n];
+    const std::string& type = graph_[n].type->type;
     const std::string hint = findings_.suggest(port.text, names);
-    findings_.error(node.scope->at(port.place),
-                    fmt::format("unknown input '{}' of '{}' ({})", port.text, node.source->id.text, node.type->type),
+    findings_.error(origin.scope->at(port.place),
+                    fmt::format("unknown input '{}' of '{}' ({})", port.text, origin.source->id.text, type),
                     !hint.empty()   ? hint
-                    : names.empty() ? fmt::format("{} has no inputs", node.type->type)
-                                    : fmt::format("inputs of {}: {}", node.type->type, join_words(names)),
-                    swap_notes(node));
+                    : names.empty() ? fmt::format("{} has no inputs", type)
+                                    : fmt::format("inputs of {}: {}", type, join_words(names)),
+                    swap_notes(origin));
   }
 
-  void wire_port(FlatNode& node, std::size_t index, const Wiring& wiring) {
-    const PortInfo& port = node.type->inputs[index];
+  void wire_port(std::size_t n, std::size_t index, const Wiring& wiring) {
+    const NodeOrigin& origin = origins_[n];
+    const PortInfo& port = graph_[n].type->inputs[index];
     if (wiring.is_list && !port.repeated)
-      findings_.error(node.scope->at(wiring.port.place),
-                      fmt::format("the input '{}' of '{}' takes one edge, not a list", port.name, node.source->id.text),
-                      {}, swap_notes(node));
-    for (const auto& source : wiring.sources) {
-      Endpoint from = resolve(*node.scope, source, true);
+      findings_.error(
+          origin.scope->at(wiring.port.place),
+          fmt::format("the input '{}' of '{}' takes one edge, not a list", port.name, origin.source->id.text), {},
+          swap_notes(origin));
+    for (std::size_t place = 0; place < wiring.sources.size(); ++place) {
+      const Reference& source = wiring.sources[place];
+      Endpoint from = resolve(*origin.scope, source, true);
       if (from.kind == Endpoint::Kind::unknown) continue;
-      const Where where = node.scope->at(source.place);
+      const Where where = origin.scope->at(source.place);
       if (from.type != port.type) {
         auto notes = std::move(from.notes);
-        for (auto& note : swap_notes(node)) notes.push_back(std::move(note));
-        report_type(where, source, from.type, fmt::format("'{}' of '{}'", port.name, node.source->id.text), port.type,
+        for (auto& note : swap_notes(origin)) notes.push_back(std::move(note));
+        report_type(where, source, from.type, fmt::format("'{}' of '{}'", port.name, origin.source->id.text), port.type,
                     std::move(notes));
       } else if (from.kind == Endpoint::Kind::node) {
-        node.inputs[index].push_back({from.edge, where, text_of(source)});
+        check_layout(where, from.from, n, index);
+        connect(from.from, n, index, place, graph_);
       }
     }
+  }
+
+  /// Two plugins may have been built with different fields of a type of the same name.
+  void check_layout(const Where& where, Source from, std::size_t to, std::size_t port) {
+    const NodeType& maker = *graph_[from.node].type;
+    const NodeType& reader = *graph_[to].type;
+    const FlatType* given = maker.outputs[from.output].flat;
+    const FlatType* wanted = reader.inputs[port].flat;
+    if (given == nullptr || wanted == nullptr || given->layout == wanted->layout) return;
+    findings_.error(where,
+                    fmt::format("the plugins of {} and {} were built with different fields of the type {}", maker.type,
+                                reader.type, maker.outputs[from.output].type),
+                    "build both again with the same modules/types");
   }
 
   void report_type(const Where& where, const Reference& source, const std::string& type, const std::string& target,
@@ -175,21 +224,22 @@ class Wirer {
   }
 
   Endpoint at_node(const Scope& scope, const Reference& reference, std::size_t index, Endpoint result, bool loud) {
-    FlatNode& node = expansion_.nodes[index];
-    node.used = true;
-    if (node.type == nullptr) return result;
-    const auto& outputs = node.type->outputs;
+    NodeOrigin& origin = origins_[index];
+    const NodeType* type = graph_[index].type;
+    origin.used = true;
+    if (type == nullptr) return result;
+    const auto& outputs = type->outputs;
     const std::size_t port = find_port(outputs, reference.port);
     if (port == outputs.size()) {
       if (loud)
-        report_unknown_output(scope, reference, fmt::format("'{}' ({})", reference.node, node.type->type),
-                              names_of(outputs), swap_notes(node));
+        report_unknown_output(scope, reference, fmt::format("'{}' ({})", reference.node, type->type), names_of(outputs),
+                              swap_notes(origin));
       return result;
     }
     result.kind = Endpoint::Kind::node;
-    result.edge = {index, port};
+    result.from = {index, port};
     if (result.type.empty()) result.type = outputs[port].type;
-    result.notes = swap_notes(node);
+    result.notes = swap_notes(origin);
     return result;
   }
 
@@ -309,16 +359,16 @@ class Wirer {
     for (const auto& output : scope.document->outputs) {
       const Endpoint from = resolve(scope, output.source, true);
       if (scope.parent == nullptr && from.kind == Endpoint::Kind::node)
-        expansion_.outputs.push_back({output.name.text, from.edge});
+        graph_[whole].outputs.push_back({output.name.text, from.from});
     }
   }
 
   /// The sub-pipelines in which a node runs for its own sake.
   std::unordered_set<const Scope*> scopes_with_sinks() const {
     std::unordered_set<const Scope*> result;
-    for (const auto& node : expansion_.nodes) {
-      if (node.type != nullptr && !node.type->sink) continue;
-      for (const Scope* scope = node.scope; scope != nullptr; scope = scope->parent)
+    for (const std::size_t n : all_nodes(graph_)) {
+      if (graph_[n].type != nullptr && !graph_[n].type->sink) continue;
+      for (const Scope* scope = origins_[n].scope; scope != nullptr; scope = scope->parent)
         if (!result.insert(scope).second) break;
     }
     return result;
@@ -339,6 +389,8 @@ class Wirer {
   }
 
   Expansion& expansion_;
+  Dataflow& graph_;
+  std::vector<NodeOrigin>& origins_;
   Findings& findings_;
 };
 
@@ -348,6 +400,7 @@ void wire(Expansion& expansion, Findings& findings) {
   Wirer wirer(expansion, findings);
   wirer.wire();
   wirer.check_use();
+  wirer.check_cycles();
 }
 
 }  // namespace atrium

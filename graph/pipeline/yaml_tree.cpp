@@ -40,13 +40,21 @@ class Lines {
     const std::size_t line = std::min(static_cast<std::size_t>(mark.line), starts_.size() - 1);
     const std::size_t end = line + 1 < starts_.size() ? starts_[line + 1] : text_.size();
     const std::string_view row = text_.substr(starts_[line], end - starts_[line]);
-    const std::string_view before = row.substr(0, std::min(row.size(), static_cast<std::size_t>(mark.column)));
-    return {static_cast<int>(line) + 1, static_cast<int>(count_characters(before)) + 1};
+    const std::size_t bytes = std::min(row.size(), static_cast<std::size_t>(mark.column));
+    // Marks come in the order of the file, nearly: what was counted in this line is not counted again.
+    if (line != line_ || bytes < bytes_) {
+      line_ = line;
+      bytes_ = characters_ = 0;
+    }
+    characters_ += count_characters(row.substr(bytes_, bytes - bytes_));
+    bytes_ = bytes;
+    return {static_cast<int>(line) + 1, static_cast<int>(characters_) + 1};
   }
 
  private:
   std::string_view text_;
   std::vector<std::size_t> starts_;
+  mutable std::size_t line_ = 0, bytes_ = 0, characters_ = 0;  ///< the last place
 };
 
 /// Builds the tree from yaml-cpp's events.
@@ -249,9 +257,10 @@ YamlTree parse_yaml(std::string_view text) {
   return tree;
 }
 
-YamlTree read_yaml(const std::string& file) {
-  const auto unreadable = [](const std::string& why) {
-    return YamlTree{{}, {{{}, "cannot read the file: " + why, {}}}};
+std::optional<std::string> read_yaml_text(const std::string& file, YamlTree& tree) {
+  const auto unreadable = [&](const std::string& why) {
+    tree.problems.push_back({{}, "cannot read the file: " + why, {}});
+    return std::nullopt;
   };
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
@@ -263,10 +272,17 @@ YamlTree read_yaml(const std::string& file) {
   std::string block(std::size_t{1} << 16U, '\0');
   while (const std::size_t got = std::fread(block.data(), 1, block.size(), stream.get())) {
     text.append(block, 0, got);
-    if (text.size() > largest_file) return unreadable("it is larger than 16 MiB, which no pipeline is");
+    if (text.size() > largest_file && !text.starts_with("\x89PNG"))
+      return unreadable("it is larger than 16 MiB, which no pipeline is");
   }
   if (std::ferror(stream.get()) != 0) return unreadable(std::strerror(errno));  // NOLINT(concurrency-mt-unsafe)
-  return parse_yaml(text);
+  return text;
+}
+
+YamlTree read_yaml(const std::string& file) {
+  YamlTree tree;
+  const auto text = read_yaml_text(file, tree);
+  return text ? parse_yaml(*text) : tree;
 }
 
 }  // namespace atrium

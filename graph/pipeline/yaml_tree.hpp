@@ -51,6 +51,10 @@ struct YamlTree {
 /// document.
 YamlTree parse_yaml(std::string_view text);
 
+/// The bytes of a file, read once (it may be a pipe); nothing if that is a problem: see read_yaml(). A picture may be
+/// of any size.
+std::optional<std::string> read_yaml_text(const std::string& file, YamlTree& tree);
+
 /// The same from a file; not being able to read it, or its being larger than 16 MiB, is a problem too.
 YamlTree read_yaml(const std::string& file);
 

@@ -98,6 +98,10 @@ class Collector {
     const auto models = ModelPaths(record_).chosen(options_.models);
     collect_pictures();
     collect_models(models);
+    for (const auto& variant : record_.variants)
+      for (const auto& path : variant.run.outside)
+        result_.notes.push_back(
+            fmt::format("{} is not in the folder {}: it is left out.", path, variant.run.folder.string()));
     for (const auto& path : unreadable_) result_.notes.push_back(fmt::format("{} cannot be read.", path));
     return std::move(result_);
   }

@@ -3,6 +3,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/fact_json.hpp"
+#include "graph/api/files.hpp"
 #include "graph/pipeline/yaml_tree.hpp"
 #include "graph/run/record_json.hpp"
 
@@ -34,10 +36,15 @@ RunRecord::Node read_node(const json& entry) {
   return node;
 }
 
+/// Somebody else may have written the list: what is not in the folder is neither read nor shown.
 void read_files(const json& artefacts, RunRecord& record) {
-  for (const auto& file : artefacts)
-    record.files.push_back(
-        {file.at("path").get<std::string>(), file.at("bytes").get<std::uint64_t>(), file.value("hash", "")});
+  for (const auto& file : artefacts) {
+    auto path = file.at("path").get<std::string>();
+    if (place_inside(record.folder, path))
+      record.files.push_back({std::move(path), file.at("bytes").get<std::uint64_t>(), file.value("hash", "")});
+    else
+      record.outside.push_back(std::move(path));
+  }
 }
 
 void read_nodes(const json& nodes, RunRecord& record) {

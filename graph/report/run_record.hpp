@@ -44,6 +44,7 @@ struct RunRecord {
   std::vector<Node> nodes;  ///< in an order in which they can run
   std::vector<Metric> metrics;
   std::vector<File> files;
+  std::vector<std::string> outside;  ///< files that the record lists and that are not in the folder
 };
 
 /// Reads result.json (of a variant) or manifest.json (of a run), and resolved.yaml. Throws Error if there is neither,

@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "graph/api/files.hpp"
 #include "graph/api/json_text.hpp"
-#include "graph/report/csv.hpp"
 #include "graph/run/run_folder.hpp"
 
 namespace atrium::report {
@@ -20,12 +17,9 @@ using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 using Cell = SweepRecord::Cell;
 
-Cell cell_of(const std::string& text) {
-  if (text.empty()) return {};
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc() && end == text.data() + text.size() && number - number == 0) return number;
-  return text;
+Cell cell_of(const ordered_json& json) {
+  if (json.is_number()) return json.get<double>();
+  return json.is_string() ? Cell(json.get<std::string>()) : Cell();
 }
 
 Cell cell_of(const Fact& fact) {
@@ -65,45 +59,29 @@ void read_axes(const fs::path& file, SweepRecord& record) {
   }
 }
 
-/// "time [s]": the name and its unit.
-SweepRecord::Metric split_title(const std::string& title) {
-  const auto open = title.rfind(" [");
-  if (open == std::string::npos || !title.ends_with(']')) return {title, "", {}};
-  return {title.substr(0, open), title.substr(open + 2, title.size() - open - 3), {}};
-}
-
-/// The columns of a sweep's table before its metrics: id, axes, and of random samples what was drawn.
-std::vector<std::string> leading_columns(const SweepRecord& record) {
-  std::vector<std::string> columns{"id"};
-  for (const auto& axis : record.axes) {
-    columns.push_back(axis.name);
-    if (axis.name != "sample" || axis.choices.empty()) continue;
-    for (const auto& [target, value] : axis.choices.front().set) columns.push_back(target);
-  }
-  return columns;
-}
-
 bool has_choice(const SweepRecord::Axis& axis, const std::string& label) {
   return std::any_of(axis.choices.begin(), axis.choices.end(),
                      [&](const auto& choice) { return choice.label == label; });
 }
 
-using Rows = std::vector<std::vector<std::string>>;
+/// The titles of a table's columns of one kind.
+std::vector<std::string> titles_of(const ordered_json& table, std::string_view kind) {
+  std::vector<std::string> titles;
+  for (const auto& column : table.at("columns"))
+    if (column.at("kind") == kind) titles.push_back(column.at("title").get<std::string>());
+  return titles;
+}
 
 /// Whether the table is one of these axes: it is not if the sweep was changed, begun again and killed.
-bool is_table_of(const SweepRecord& record, const Rows& rows) {
-  const auto columns = leading_columns(record);
-  if (rows.empty() || rows.front().size() <= columns.size() ||
-      !std::equal(columns.begin(), columns.end(), rows.front().begin()))
-    return false;
-  return std::all_of(rows.begin() + 1, rows.end(), [&](const auto& row) {
-    std::size_t column = 0;
-    return row.size() == rows.front().size() &&
-           std::all_of(record.axes.begin(), record.axes.end(), [&](const auto& axis) {
-             while (columns[++column] != axis.name) {  // what was drawn
-             }
-             return has_choice(axis, row[column]);
-           });
+bool is_table_of(const SweepRecord& record, const ordered_json& table) {
+  const auto axes = titles_of(table, "axis");
+  const auto is_named = [](const SweepRecord::Axis& axis, const std::string& title) { return axis.name == title; };
+  if (!std::equal(record.axes.begin(), record.axes.end(), axes.begin(), axes.end(), is_named)) return false;
+  const auto& variants = table.at("variants");
+  return std::all_of(variants.begin(), variants.end(), [&](const auto& variant) {
+    return std::all_of(record.axes.begin(), record.axes.end(), [&](const auto& axis) {
+      return has_choice(axis, variant.at(axis.name).template get<std::string>());
+    });
   });
 }
 
@@ -121,29 +99,38 @@ void read_variant(const fs::path& folder, const std::string& status, SweepRecord
   }
 }
 
-void read_table(const fs::path& folder, const Rows& rows, SweepRecord& record) {
-  const std::size_t first = leading_columns(record).size();
+void read_table(const fs::path& folder, const ordered_json& table, SweepRecord& record) {
   std::vector<SweepRecord::Metric> metrics;
-  for (std::size_t c = first; c + 1 < rows.front().size(); ++c) {
-    metrics.push_back(split_title(rows.front()[c]));
+  for (const auto& column : table.at("columns")) {
+    if (column.at("kind") != "metric") continue;
+    metrics.push_back({column.at("name").get<std::string>(), column.at("unit").get<std::string>(), {}});
     for (const auto& known : record.metrics)
       if (known.name == metrics.back().name) metrics.back().digits = known.digits;
   }
   record.metrics = std::move(metrics);
-  for (std::size_t r = 1; r < rows.size(); ++r) {
-    const auto& row = rows[r];
+  const auto titles = titles_of(table, "metric");
+  for (const auto& row : table.at("variants")) {
     auto& variant = record.variants.emplace_back();
-    variant.run.id = row.front();
-    std::size_t column = 1;
-    std::vector<std::pair<std::string, std::string>> choices;
-    for (const auto& axis : record.axes) {
-      choices.emplace_back(axis.name, row[column]);
-      column += 1 + (axis.name == "sample" && !axis.choices.empty() ? axis.choices.front().set.size() : 0);
-    }
-    read_variant(folder / "variants" / row.front(), row.back(), record, variant);
-    variant.run.choices = std::move(choices);
-    for (std::size_t c = first; c + 1 < row.size(); ++c) variant.cells.push_back(cell_of(row[c]));
+    variant.run.id = row.at("id").get<std::string>();
+    if (const auto own = place_inside(folder / "variants", variant.run.id))
+      read_variant(*own, row.at("status").get<std::string>(), record, variant);
+    else
+      record.notes.push_back(fmt::format("Left out: '{}', which is no folder of this sweep.", variant.run.id));
+    variant.run.choices.clear();
+    for (const auto& axis : record.axes)
+      variant.run.choices.emplace_back(axis.name, row.at(axis.name).get<std::string>());
+    for (const auto& title : titles) variant.cells.push_back(cell_of(row.at(title)));
   }
+}
+
+/// The table that the sweep has left, if it is one of its present axes.
+ordered_json table_of(const fs::path& folder, const SweepRecord& record) {
+  try {
+    auto table = read_json_file(folder / "table.json");
+    if (!table.is_discarded() && is_table_of(record, table)) return table;
+  } catch (const ordered_json::exception&) {  // somebody else's
+  }
+  return nullptr;
 }
 
 /// Cells from what the variants' outputs show.
@@ -175,7 +162,7 @@ void read_variants(const fs::path& folder, SweepRecord& record) {
   std::vector<fs::path> folders;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder / "variants", none))
-    if (fs::exists(entry.path() / "result.json")) folders.push_back(entry.path());
+    if (!entry.is_symlink(none) && fs::exists(entry.path() / "result.json", none)) folders.push_back(entry.path());
   std::sort(folders.begin(), folders.end());
   std::size_t others = 0;
   for (const auto& path : folders) {
@@ -199,10 +186,8 @@ SweepRecord read_sweep_folder(const fs::path& folder) {
   if (!fs::exists(folder)) throw Error("there is no folder " + folder.string());
   if (fs::exists(folder / sweep_mark)) {
     read_axes(folder / sweep_mark, record);
-    const fs::path table = folder / "table.csv";
-    const Rows rows = fs::exists(table) ? read_csv(read_text(table)) : Rows{};
-    if (is_table_of(record, rows))
-      read_table(folder, rows, record);
+    if (const auto table = table_of(folder, record); !table.is_null())
+      read_table(folder, table, record);
     else
       read_variants(folder, record);
     if (record.variants.empty()) throw Error("no variant of the sweep in " + folder.string() + " is done yet");

@@ -34,7 +34,7 @@ struct SweepRecord {
   std::vector<std::string> notes;  ///< what a reader should know: what could not be read
 };
 
-/// Reads the folder of a sweep (sweep.json, table.csv, variants) or of a run. A sweep that was killed before its table
+/// Reads the folder of a sweep (sweep.json, table.json, variants) or of a run. A sweep that was killed before its table
 /// was written gives the variants that are done, with all their metrics. Throws Error.
 SweepRecord read_sweep_folder(const std::filesystem::path& folder);
 

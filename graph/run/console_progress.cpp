@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "graph/run/clocks.hpp"
+#include "graph/api/clocks.hpp"
 
 namespace atrium {
 namespace {
@@ -71,6 +71,8 @@ ConsoleProgress::~ConsoleProgress() {
   end_.notify_all();
   if (ticker_.joinable()) ticker_.join();
   erase();
+  for (const auto& [text, times] : warnings_)
+    if (times > 1) line(fmt::format("{} given {} times: {}", painted("warning:", "33"), times, text));
 }
 
 void ConsoleProgress::tick() {
@@ -112,12 +114,17 @@ void ConsoleProgress::finished(const NodeRecord& node) {
   }
 }
 
+void ConsoleProgress::reopened(const std::string& /*node*/) {
+  const std::lock_guard lock(mutex_);
+  if (done_ > 0) --done_;
+}
+
 void ConsoleProgress::message(const std::string& node, std::string_view text, bool warning) {
   if (options_.quiet) return;
   const std::lock_guard lock(mutex_);
-  if (warning)
-    line(fmt::format("{} {}: {}", painted("warning:", "33"), node, text));
-  else
+  if (warning) {
+    if (++warnings_[std::string(text)] == 1) line(fmt::format("{} {}: {}", painted("warning:", "33"), node, text));
+  } else
     line(fmt::format("{}: {}", node, text));
 }
 

@@ -25,7 +25,8 @@ ConsoleOptions console_options(std::FILE* stream, bool quiet);
 ///   live:  [12/25] planes 40 %, normals  0:12, about 0:30 left
 ///   plain: "planes: 1.24 s" when a node is done (in a pipeline of more than 200 nodes: if it took a second), and every
 ///          10 s what is still running.
-/// Warnings, texts and failures of nodes are lines of their own, with the node's path.
+/// Warnings, texts and failures of nodes are lines of their own, with the node's path. A warning that many nodes give
+/// is printed once; at the end a line says how often it was given.
 class ConsoleProgress final : public ProgressSink {
  public:
   explicit ConsoleProgress(ConsoleOptions options);
@@ -37,6 +38,7 @@ class ConsoleProgress final : public ProgressSink {
   void started(const std::string& node) override;
   void progress(const std::string& node, double share) override;
   void finished(const NodeRecord& node) override;
+  void reopened(const std::string& node) override;
   void message(const std::string& node, std::string_view text, bool warning) override;
 
  private:
@@ -58,6 +60,7 @@ class ConsoleProgress final : public ProgressSink {
   double start_;
   std::size_t nodes_ = 0, done_ = 0;
   std::map<std::string, Running> running_;
+  std::map<std::string, std::size_t> warnings_;  ///< how often each was given, whatever node gave it
   std::thread ticker_;
 };
 

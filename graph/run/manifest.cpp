@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/fact_json.hpp"
 #include "graph/api/json_text.hpp"
 #include "graph/api/plugin.hpp"
 #include "graph/pipeline/png_stamp.hpp"
@@ -20,10 +21,10 @@ Json head(const Pipeline& pipeline, const std::string& started, std::string_view
   return {{"atrium", ATRIUM_VERSION},
           {"build", ATRIUM_STAMP},
           {"status", status},
-          {"pipeline", pipeline.file.string()},
+          {"pipeline", pipeline[whole].file.string()},
           {"run", stamp_of(pipeline).run},
           {"started", started},
-          {"seed", pipeline.seed}};
+          {"seed", pipeline[whole].seed}};
 }
 
 Json outputs_of(const NodeRecord& node) {
@@ -65,9 +66,9 @@ Json facts_json(const std::vector<Fact>& facts) {
 
 Json pipeline_outputs(const Pipeline& pipeline, const RunResult& result) {
   Json outputs = Json::object();
-  for (const auto& output : pipeline.outputs) {
+  for (const auto& output : pipeline[whole].outputs) {
     const NodeRecord& node = result.nodes[output.from.node];
-    const PortInfo& port = pipeline.nodes[output.from.node].type->outputs[output.from.output];
+    const PortInfo& port = pipeline[output.from.node].type->outputs[output.from.output];
     Json json{{"from", node.node + "." + port.name}, {"type", port.type}};
     if (node.status == NodeStatus::ok && !node.outputs[output.from.output].hash.empty())
       json["hash"] = node.outputs[output.from.output].hash;
@@ -113,8 +114,7 @@ std::string manifest_json(const Pipeline& pipeline, const RunResult& result, con
   }
   json["outputs"] = pipeline_outputs(pipeline, result);
   Json nodes = Json::array();
-  for (std::size_t n = 0; n < result.nodes.size(); ++n)
-    nodes.push_back(node_json(result.nodes[n], *pipeline.nodes[n].type));
+  for (std::size_t n = 0; n < result.nodes.size(); ++n) nodes.push_back(node_json(result.nodes[n], *pipeline[n].type));
   json["nodes"] = std::move(nodes);
   return manifest_text(json);
 }
@@ -122,10 +122,10 @@ std::string manifest_json(const Pipeline& pipeline, const RunResult& result, con
 std::string unfinished_manifest(const Pipeline& pipeline, const std::string& started) {
   auto manifest = head(pipeline, started, "running");
   manifest["planned"] = nlohmann::json::array();
-  for (const auto& node : pipeline.nodes)
-    for (std::size_t i = 0; i < node.params.size(); ++i)
-      if (node.type->params[i].kind == ParamKind::output_path)
-        manifest["planned"].push_back(std::get<std::string>(node.params[i]));
+  for (const std::size_t n : all_nodes(pipeline))
+    for (std::size_t i = 0; i < pipeline[n].params.size(); ++i)
+      if (pipeline[n].type->params[i].kind == ParamKind::output_path)
+        manifest["planned"].push_back(std::get<std::string>(pipeline[n].params[i]));
   return manifest_text(manifest);
 }
 

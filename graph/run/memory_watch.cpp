@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "graph/run/clocks.hpp"
+#include "graph/api/clocks.hpp"
 
 namespace atrium {
 

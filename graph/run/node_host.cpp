@@ -1,7 +1,9 @@
 #include "graph/run/node_host.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
-#include <fstream>
 
 namespace atrium {
 namespace {
@@ -35,8 +37,14 @@ void NodeHost::wrote(const std::filesystem::path& file) {
   if (is_png(file)) stamp_png(file, stamp_);
   const std::lock_guard lock(mutex_);
   files_.push_back(file);
-  if (!folder_.empty() && subfolder_.empty())
-    std::ofstream(folder_ / written_journal, std::ios::app) << describe(file, folder_).path + "\n";
+  if (folder_.empty() || !subfolder_.empty()) return;
+  const std::string line = describe(file, folder_).path + "\n";
+  const int journal =
+      ::open((folder_ / written_journal).c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (journal < 0 || ::write(journal, line.data(), line.size()) < 0)
+    progress_.message(node_, "cannot note " + line.substr(0, line.size() - 1) + ": a later run would not remove it",
+                      true);
+  if (journal >= 0) ::close(journal);
 }
 
 void NodeHost::keep(const std::filesystem::path& file) {

@@ -1,17 +1,14 @@
 #include "graph/run/run_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/chrono.h>
-#include <sys/file.h>
-#include <unistd.h>
+#include <fmt/format.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "graph/api/files.hpp"
 #include "graph/cache/node_key.hpp"
 #include "graph/run/manifest.hpp"
 #include "graph/run/node_host.hpp"
@@ -32,8 +29,8 @@ nlohmann::json read_manifest(const fs::path& folder) {
 
 std::set<fs::path> files_read(const Pipeline& pipeline) {
   std::set<fs::path> files;
-  for (const auto& node : pipeline.nodes)
-    for (const auto& file : input_files(node)) files.insert(fs::weakly_canonical(file));
+  for (const std::size_t n : all_nodes(pipeline))
+    for (const auto& file : input_files(pipeline[n])) files.insert(fs::weakly_canonical(file));
   return files;
 }
 
@@ -51,6 +48,16 @@ std::vector<std::pair<std::string, std::uint64_t>> written_by(const nlohmann::js
   return files;
 }
 
+/// Throws FolderError if the folder holds anything but a run.
+void refuse_what_is_no_run(const fs::path& folder) {
+  if (holds_only_unfinished(folder)) return;
+  if (fs::exists(folder / sweep_mark))
+    throw FolderError(folder.string() + " is the folder of a sweep", "choose another folder with --out");
+  if (read_manifest(folder).is_null())
+    throw FolderError(folder.string() + " is not empty and is not the folder of a run",
+                      "choose another folder with --out, or empty it");
+}
+
 }  // namespace
 
 void write_file(const fs::path& target, const std::string& text, bool flush) {
@@ -66,49 +73,26 @@ RunFolder::RunFolder(fs::path folder, const Pipeline& pipeline)
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw FolderError("cannot make the folder " + folder_.string() + ": " + error.message());
-  lock();
+  refuse_what_is_no_run(folder_);  // before anything, even a lock, is put into it
   try {
-    remove_earlier_run();
-    write_file(folder_ / "manifest.json", unfinished_manifest(pipeline_, started_));
-    write_file(folder_ / "resolved.yaml", resolved_yaml(pipeline_));
-  } catch (...) {
-    ::close(lock_);
-    throw;
+    lock_.emplace(folder_, FolderLock::Kind::alone);
+  } catch (const Error& problem) {
+    throw FolderError(problem.what(), problem.help());
   }
-}
-
-RunFolder::~RunFolder() { ::close(lock_); }
-
-void RunFolder::lock() {
-  lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0) throw FolderError("cannot open the folder " + folder_.string() + ": " + std::strerror(errno));
-  if (::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  ::close(lock_);
-  throw FolderError("another run is writing into " + folder_.string(), "choose another folder with --out");
-}
-
-bool holds_only_unfinished(const fs::path& folder) {
-  const fs::directory_iterator entries(folder);
-  return std::all_of(fs::begin(entries), fs::end(entries), [](const fs::directory_entry& entry) {
-    const std::string name = entry.path().filename().string();
-    return name.starts_with('.') && name.ends_with(".part");
-  });
+  if (!lock_->held())
+    throw FolderError(fmt::format("another run is writing into {} ({})", folder_.string(), lock_->holder()),
+                      "choose another folder with --out");
+  remove_earlier_run();
+  write_file(folder_ / "manifest.json", unfinished_manifest(pipeline_, started_));
+  write_file(folder_ / "resolved.yaml", resolved_yaml(pipeline_));
 }
 
 void RunFolder::remove_earlier_run() {
+  refuse_what_is_no_run(folder_);
   if (holds_only_unfinished(folder_)) return;
-  if (fs::exists(folder_ / sweep_mark))
-    throw FolderError(folder_.string() + " is the folder of a sweep", "choose another folder with --out");
   const auto manifest = read_manifest(folder_);
-  if (manifest.is_null())
-    throw FolderError(folder_.string() + " is not empty and is not the folder of a run",
-                      "choose another folder with --out, or empty it");
   const auto needed = files_read(pipeline_);
-  const auto place = [&](const std::string& listed) {
-    const fs::path relative = fs::path(listed).lexically_normal();
-    const bool inside = !relative.empty() && !relative.is_absolute() && *relative.begin() != "..";
-    return inside ? folder_ / relative : fs::path();
-  };
+  const auto place = [&](const std::string& listed) { return place_inside(folder_, listed).value_or(fs::path()); };
   std::error_code ignored;
   const auto remove_unless_read = [&](const fs::path& file) {
     if (fs::is_regular_file(file, ignored) && !needed.contains(fs::weakly_canonical(file))) fs::remove(file, ignored);
@@ -126,8 +110,7 @@ void RunFolder::remove_earlier_run() {
   fs::remove(folder_ / written_journal, ignored);
   std::vector<fs::path> unfinished;
   for (const auto& entry : fs::recursive_directory_iterator(folder_, ignored))
-    if (entry.path().extension() == ".part" && entry.path().filename().string().front() == '.')
-      unfinished.push_back(entry.path());
+    if (!name_of_unfinished(entry.path().filename().string()).empty()) unfinished.push_back(entry.path());
   for (const auto& file : unfinished) remove_unless_read(file);
   fs::remove(folder_ / "trace.json", ignored);
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "graph/api/clocks.hpp"
 #include "graph/cache/cache.hpp"
-#include "graph/run/clocks.hpp"
 #include "graph/run/run_folder.hpp"
 #include "graph/run/scheduler.hpp"
 

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,10 +23,6 @@ struct RunOptions {
   /// What goes into the pictures of a node; empty: stamp_of() the pipeline.
   std::function<const PngStamp&(const PipelineNode& node)> stamp;
   const std::atomic<bool>* stop = nullptr;  ///< the same, but the nodes that run are let finish
-  std::uint64_t memory = 0;                 ///< bytes that nodes which run at the same time may need together; 0: any
-  /// What a node will probably need (asked under a lock); nothing: not known, then it runs alone. Null: nothing is
-  /// known.
-  std::function<std::optional<std::uint64_t>(const PipelineNode& node)> memory_of;
   Cache* cache = nullptr;  ///< what earlier runs computed is not computed again; outputs are hashed in any case
 };
 
@@ -128,6 +123,8 @@ class ProgressSink {
   virtual void finished(const NodeRecord& /*node*/) {}
   /// Of every node that is ok, after `finished`, when its outputs are sized and hashed.
   virtual void described(const NodeRecord& /*node*/) {}
+  /// Of a node that was finished: what was told of it holds no longer, it will be finished once more.
+  virtual void reopened(const std::string& /*node*/) {}
   virtual void message(const std::string& /*node*/, std::string_view /*text*/, bool /*warning*/) {}
 };
 

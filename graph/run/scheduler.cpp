@@ -8,8 +8,8 @@
 #include <new>
 #include <tuple>
 
+#include "graph/api/clocks.hpp"
 #include "graph/api/helper_memory.hpp"
-#include "graph/run/clocks.hpp"
 #include "graph/run/node_host.hpp"
 
 namespace atrium {
@@ -31,18 +31,27 @@ Scheduler::Scheduler(const Pipeline& pipeline, const RunOptions& options, Progre
       options_(options),
       progress_(progress),
       cache_(options.cache),
-      plan_(make_plan(pipeline)),
+      order_(topological_order(pipeline)),
       picture_stamp_(stamp_of(pipeline)),
-      admission_(options.memory, options.memory_of),
-      states_(pipeline.nodes.size()) {
-  result_.nodes.resize(pipeline.nodes.size());
-  for (std::size_t n = 0; n < pipeline.nodes.size(); ++n) {
-    result_.nodes[n].node = pipeline.nodes[n].path;
-    result_.nodes[n].type = pipeline.nodes[n].type->type;
-    states_[n].values.resize(pipeline.nodes[n].type->outputs.size());
-    states_[n].wanted.resize(pipeline.nodes[n].type->outputs.size(), 0);
-    states_[n].blocker = pipeline.nodes.size();
+      states_(node_count(pipeline)) {
+  prepare();
+}
+
+void Scheduler::prepare() {
+  result_.nodes.resize(states_.size());
+  for (const std::size_t n : all_nodes(pipeline_)) {
+    result_.nodes[n].node = pipeline_[n].path;
+    result_.nodes[n].type = pipeline_[n].type->type;
+    states_[n].values.resize(pipeline_[n].type->outputs.size());
+    states_[n].readers.resize(pipeline_[n].type->outputs.size());
+    states_[n].blocker = states_.size();
   }
+  for (const auto& edge : boost::make_iterator_range(boost::edges(pipeline_)))
+    ++states_[boost::source(edge, pipeline_)].readers.at(pipeline_[edge].output);
+  for (const auto& output : pipeline_[whole].outputs) ++states_[output.from.node].readers.at(output.from.output);
+  for (auto n = order_.rbegin(); n != order_.rend(); ++n)
+    for (const auto& edge : edges_out_of(*n, pipeline_))
+      states_[*n].remaining = std::max(states_[*n].remaining, states_[boost::target(edge, pipeline_)].remaining + 1);
 }
 
 RunResult Scheduler::run() {
@@ -50,22 +59,71 @@ RunResult Scheduler::run() {
   result_.threads = threads;
   start_ = wall_seconds();
   peak_memory_ = peak_memory();
-  progress_.planned(pipeline_.nodes.size());
+  progress_.planned(states_.size());
   if (cache_ != nullptr) note_builds();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads, 1);
-  arena.execute([&] {
-    tbb::task_group group;
-    spawn_ = [&](std::size_t tasks) {
-      for (std::size_t i = 0; i < tasks; ++i) group.run([this] { step(); });
-    };
-    for (std::size_t n = 0; n < pipeline_.nodes.size(); ++n)
-      if (plan_.waits[n] == 0) push(n, cache_ == nullptr ? Step::run : Step::look);
-    ++stamp_;
-    spawn_(ready_.size());
-    group.wait();
-  });
-  for (const auto& output : pipeline_.outputs) {
+  if (cache_ != nullptr) arena.execute([this] { hash_inputs(); });
+  do {
+    begin_round();
+    arena.execute([&] {
+      tbb::task_group group;
+      spawn_ = [&](std::size_t tasks) {
+        for (std::size_t i = 0; i < tasks; ++i) group.run([this] { step(); });
+      };
+      spawn_(ready_.size());
+      group.wait();
+    });
+  } while (lost_ > 0 && !stopping() && !stands_still());
+  return result();
+}
+
+/// Each round settles more nodes, or finds out of one more that its value or a file of it cannot be had as it was:
+/// there is a last one.
+void Scheduler::begin_round() {
+  lost_ = 0;
+  settled_ = 0;
+  if (cache_ != nullptr) reopen_readers_of_new_values();
+  if (cache_ != nullptr) plan_round();
+  std::vector<std::size_t> scheduled;
+  for (const std::size_t n : all_nodes(pipeline_)) {
+    State& state = states_[n];
+    const bool for_values = state.settled && cache_ != nullptr && plan_[n].decision == PlannedNode::Decision::again;
+    state.scheduled = !state.settled || for_values;
+    state.waits = 0;
+    if (!state.scheduled) continue;
+    scheduled.push_back(n);
+    state.blocked = false;  // what failed may be open again
+    state.blocker = states_.size();
+    if (for_values)
+      for (const auto& edge : edges_into(n, pipeline_))
+        ++states_[boost::source(edge, pipeline_)].readers[pipeline_[edge].output];
+  }
+  for (const std::size_t n : scheduled)
+    for (const auto& edge : edges_into(n, pipeline_)) {
+      const std::size_t from = boost::source(edge, pipeline_);
+      if (states_[from].scheduled)
+        ++states_[n].waits;
+      else
+        block(n, from);  // it may have failed in a round before
+    }
+  std::vector<std::size_t> ends;  // that have nothing to wait for and cannot run
+  for (const std::size_t n : scheduled)
+    if (states_[n].waits == 0) states_[n].blocked ? ends.push_back(n) : push(n);
+  ++stamp_;
+  std::vector<Value> garbage;
+  std::vector<std::size_t> passed;
+  for (const std::size_t n : ends) {
+    if (pass_over(n, garbage)) passed.push_back(n);
+    release_followers(n, garbage, passed);
+  }
+  for (const std::size_t n : passed) tell(n);
+}
+
+RunResult Scheduler::result() {
+  for (const std::size_t n : all_nodes(pipeline_))  // of a round that was ended
+    if (!states_[n].settled) progress_.finished(result_.nodes[n]);
+  for (const auto& output : pipeline_[whole].outputs) {
     const Value& value = states_[output.from.node].values[output.from.output];
     if (value.data) result_.outputs[output.name] = value;
   }
@@ -79,71 +137,77 @@ RunResult Scheduler::run() {
 bool Scheduler::cancelled() const { return options_.cancel != nullptr && options_.cancel->load(); }
 bool Scheduler::stopping() const { return cancelled() || (options_.stop != nullptr && options_.stop->load()); }
 
-void Scheduler::push(std::size_t n, Step step) {
-  ready_.push({stamp_, n, plan_.followers[n].empty(), plan_.remaining[n], step});
+void Scheduler::push(std::size_t n) {
+  ready_.push({stamp_, n, boost::out_degree(n, pipeline_) == 0, states_[n].remaining});
 }
 
 void Scheduler::step() {
-  Ready next{};
+  std::size_t next = 0;
   {
     const std::lock_guard lock(mutex_);
-    next = ready_.top();
+    next = ready_.top().node;
     ready_.pop();
-    if (next.step == Step::run && !stopping() && !admission_.admit(next.node, pipeline_.nodes[next.node])) return;
   }
-  if (stopping())
-    abandon(next.node);
-  else if (next.step == Step::look)
-    look(next.node);
-  else if (next.step == Step::fetch)
-    fetch(next.node);
-  else
-    execute(next.node);
+  if (!stopping()) {
+    if (states_[next].settled)
+      run_for_values(next);
+    else
+      execute(next);
+  } else if (!states_[next].settled) {
+    tell(next);
+    settle(next, {});
+  }
+}
+
+/// Once more if what was told before holds no longer.
+void Scheduler::tell(std::size_t n) {
+  if (std::exchange(states_[n].told, true)) progress_.reopened(result_.nodes[n].node);
+  progress_.finished(result_.nodes[n]);
 }
 
 void Scheduler::execute(std::size_t n) {
+  if (cache_ != nullptr && (take_from_cache(n) || !load_inputs(n))) return;
   NodeRecord& record = result_.nodes[n];
   Inputs inputs;
-  bool again = false;
   {
     const std::lock_guard lock(mutex_);
-    inputs = inputs_of(n);
-    again = states_[n].settled;
+    inputs = values_for(n);
   }
-  if (!again) progress_.started(record.node);
+  progress_.started(record.node);
   std::vector<Value> outputs;
   std::optional<std::uint64_t> growth;
-  bool ok = call_watched(n, std::move(inputs), outputs, growth);
-  if (ok) note_facts(n, outputs);
-  if (ok && cache_ != nullptr) {  // the nodes that read the outputs need their hashes
-    describe(n, outputs);
-    ok = !again || hashes_are_right(n);
-  }
-  if (ok && !again) record.status = NodeStatus::ok;
+  const bool ok = call_watched(n, std::move(inputs), outputs, growth);
   if (!ok) outputs.clear();
-  // Before others start: whatever they do to the process, this is done.
-  if (ok && cache_ != nullptr) keep(n, outputs, growth);
-  if (again) {
-    if (record.status == NodeStatus::failed) progress_.message(record.node, record.message, true);
-    settle_again(n, outputs);
-  } else {
-    progress_.finished(record);
-    if (cache_ == nullptr) {
-      settle(n, outputs);
-      if (ok) describe(n, outputs);
-      if (ok) progress_.described(record);
-    } else {
-      settle_with_cache(n, outputs);
+  if (ok) {
+    note_facts(n, outputs);
+    record.status = NodeStatus::ok;
+  }
+  if (cache_ == nullptr) {  // what follows need not wait for hashes
+    tell(n);
+    settle(n, outputs);
+    if (ok) describe(n, outputs);
+    if (ok) progress_.described(record);
+    return;
+  }
+  if (ok) {
+    describe(n, outputs);
+    const std::string drift = compare_with_record(n);
+    keep(n, outputs, growth);  // before others start: whatever they do to the process, this is done
+    if (!drift.empty()) {
+      progress_.message(record.node, drift, true);
+      record.warnings.push_back(drift);
     }
   }
-  if (options_.memory > 0) give_memory_back(n, growth);
+  tell(n);
+  if (ok) progress_.described(record);
+  settle(n, outputs);
 }
 
 /// call(), with what happens to the process's memory.
 bool Scheduler::call_watched(std::size_t n, Inputs inputs, std::vector<Value>& outputs,
                              std::optional<std::uint64_t>& growth) {
   NodeRecord& record = result_.nodes[n];
-  const bool watched = cache_ != nullptr || options_.memory > 0;
+  const bool watched = cache_ != nullptr;
   if (result_.threads == 1 && !watched) reset_peak_memory();
   const std::size_t watch = watched ? memory_watch_.begin() : 0;
   take_helper_memory();
@@ -160,28 +224,11 @@ bool Scheduler::call_watched(std::size_t n, Inputs inputs, std::vector<Value>& o
   return ok;
 }
 
-void Scheduler::give_memory_back(std::size_t n, std::optional<std::uint64_t> growth) {
-  std::size_t tasks = 0;
-  {
-    const std::lock_guard lock(mutex_);
-    admission_.done(n, result_.nodes[n].type, growth);
-    tasks = retry_refused();
-  }
-  spawn_(tasks);
-}
-
-/// Nodes that had to wait for memory.
-std::size_t Scheduler::retry_refused() {
-  const auto refused = admission_.later();
-  for (const std::size_t n : refused) push(n, Step::run);
-  return refused.size();
-}
-
 bool Scheduler::call(std::size_t n, const Inputs& inputs, std::vector<Value>& outputs) {
-  const PipelineNode& node = pipeline_.nodes[n];
+  const PipelineNode& node = pipeline_[n];
   NodeRecord& record = result_.nodes[n];
   const PngStamp& stamp = options_.stamp ? options_.stamp(node) : picture_stamp_;
-  Cache* keeper = states_[n].key.fields.empty() ? nullptr : cache_;
+  Cache* keeper = states_[n].found.key.fields.empty() ? nullptr : cache_;
   const auto host =
       std::make_shared<NodeHost>(record.node, options_.out, node.folder, options_.cancel, stamp, progress_, keeper);
   Context context(node.seed, host, node.type->random);
@@ -217,7 +264,6 @@ bool Scheduler::call(std::size_t n, const Inputs& inputs, std::vector<Value>& ou
 }
 
 void Scheduler::fail(std::size_t n, std::string message, std::string help) {
-  const std::lock_guard lock(mutex_);  // of a node that is run again others read the status (lost_producer)
   NodeRecord& record = result_.nodes[n];
   record.status = NodeStatus::failed;
   record.message = std::move(message);
@@ -229,7 +275,7 @@ void Scheduler::note_facts(std::size_t n, const std::vector<Value>& outputs) {
   record.facts.assign(outputs.size(), {});
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     if (outputs[i].facts == nullptr) continue;
-    const std::string& port = pipeline_.nodes[n].type->outputs[i].name;
+    const std::string& port = pipeline_[n].type->outputs[i].name;
     try {
       record.facts[i] = outputs[i].facts(outputs[i].data.get());
     } catch (const std::exception& error) {
@@ -245,7 +291,7 @@ void Scheduler::describe(std::size_t n, const std::vector<Value>& outputs) {
   record.outputs.clear();
   record.hash_start = wall_seconds() - start_;
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    const PortInfo& port = pipeline_.nodes[n].type->outputs[i];
+    const PortInfo& port = pipeline_[n].type->outputs[i];
     OutputRecord output{port.name, port.type, 0, {}};
     try {
       output.bytes = outputs[i].bytes(outputs[i].data.get());
@@ -258,27 +304,25 @@ void Scheduler::describe(std::size_t n, const std::vector<Value>& outputs) {
   record.hash_wall = wall_seconds() - start_ - record.hash_start;
 }
 
-Scheduler::Inputs Scheduler::inputs_of(std::size_t n) const {
+Scheduler::Inputs Scheduler::values_for(std::size_t n) const {
   Inputs inputs;
-  inputs.reserve(pipeline_.nodes[n].inputs.size());
-  for (const auto& port : pipeline_.nodes[n].inputs) {
+  for (const auto& port : inputs_of(n, pipeline_)) {
     auto& values = inputs.emplace_back();
-    for (const Edge& edge : port) values.push_back(states_[edge.node].values[edge.output]);
+    for (const Source& source : port) values.push_back(states_[source.node].values[source.output]);
   }
   return inputs;
 }
 
 void Scheduler::keep_outputs(std::size_t n, const std::vector<Value>& outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i)
-    if (plan_.readers[n][i] > 0) states_[n].values[i] = outputs[i];
+    if (states_[n].readers[i] > 0) states_[n].values[i] = outputs[i];
 }
 
 void Scheduler::release_inputs(std::size_t n, std::vector<Value>& garbage) {
-  for (const auto& port : pipeline_.nodes[n].inputs) {
-    for (const Edge& edge : port) {
-      Value& value = states_[edge.node].values[edge.output];
-      if (--plan_.readers[edge.node][edge.output] == 0) garbage.push_back(std::exchange(value, {}));
-    }
+  for (const auto& edge : edges_into(n, pipeline_)) {
+    State& from = states_[boost::source(edge, pipeline_)];
+    const std::size_t output = pipeline_[edge].output;
+    if (--from.readers[output] == 0) garbage.push_back(std::exchange(from.values[output], {}));
   }
 }
 
@@ -291,14 +335,25 @@ void Scheduler::block(std::size_t follower, std::size_t by) {
   if (status == NodeStatus::skipped) state.blocker = std::min(state.blocker, states_[by].blocker);
 }
 
-/// A node that cannot run any more.
-void Scheduler::pass_over(std::size_t n, std::vector<Value>& garbage) {
-  if (states_[n].blocker != pipeline_.nodes.size()) {
-    result_.nodes[n].status = NodeStatus::skipped;
-    result_.nodes[n].because = result_.nodes[states_[n].blocker].node;
-  }
-  states_[n].settled = true;
+/// A node that cannot run any more. Returns whether that is news.
+bool Scheduler::pass_over(std::size_t n, std::vector<Value>& garbage) {
+  State& state = states_[n];
+  NodeRecord& record = result_.nodes[n];
   release_inputs(n, garbage);
+  const bool failed = state.blocker != states_.size();
+  if (state.settled) {
+    record.status = failed ? NodeStatus::failed : NodeStatus::cancelled;
+    if (failed)
+      record.message =
+          "its value is not kept and cannot be made again: '" + result_.nodes[state.blocker].node + "' failed";
+    return failed;
+  }
+  if (failed) {
+    record.status = NodeStatus::skipped;
+    record.because = result_.nodes[state.blocker].node;
+  }
+  state.settled = true;
+  return true;
 }
 
 // What can run now is put on the queue (returned: how many); what cannot run any more is passed over at once.
@@ -308,17 +363,19 @@ std::size_t Scheduler::release_followers(std::size_t n, std::vector<Value>& garb
   while (!settled.empty()) {
     const std::size_t by = settled.back();
     settled.pop_back();
-    for (const std::size_t f : plan_.followers[by]) {
-      block(f, by);
-      if (--plan_.waits[f] > 0) continue;
-      if (!states_[f].blocked) {
-        push(f, cache_ == nullptr ? Step::run : Step::look);
+    for (const auto& edge : edges_out_of(by, pipeline_)) {
+      const std::size_t follower = boost::target(edge, pipeline_);
+      State& state = states_[follower];
+      if (!state.scheduled) continue;
+      block(follower, by);
+      if (--state.waits > 0) continue;
+      if (!state.blocked) {
+        push(follower);
         ++started;
         continue;
       }
-      pass_over(f, garbage);
-      passed.push_back(f);
-      settled.push_back(f);
+      if (pass_over(follower, garbage)) passed.push_back(follower);
+      settled.push_back(follower);
     }
   }
   ++stamp_;
@@ -331,15 +388,16 @@ void Scheduler::settle(std::size_t n, const std::vector<Value>& outputs) {
   std::size_t started = 0;
   {
     const std::lock_guard lock(mutex_);
-    states_[n].settled = true;
-    states_[n].hashes.clear();
-    for (const auto& output : result_.nodes[n].outputs) states_[n].hashes.push_back(output.hash);
+    State& state = states_[n];
+    ++settled_;
+    if (!std::exchange(state.settled, true))
+      for (const auto& output : result_.nodes[n].outputs) state.hashes.push_back(output.hash);
     keep_outputs(n, outputs);
     release_inputs(n, garbage);
     started = release_followers(n, garbage, passed);
   }
   spawn_(started);
-  for (const std::size_t p : passed) progress_.finished(result_.nodes[p]);
+  for (const std::size_t p : passed) tell(p);
   // Here, without the lock and after the next nodes were started, the garbage is freed.
 }
 

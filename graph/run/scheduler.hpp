@@ -8,9 +8,8 @@
 
 #include "graph/cache/cache.hpp"
 #include "graph/pipeline/png_stamp.hpp"
-#include "graph/run/admission.hpp"
+#include "graph/run/cache_plan.hpp"
 #include "graph/run/memory_watch.hpp"
-#include "graph/run/plan.hpp"
 #include "graph/run/runner.hpp"
 
 namespace atrium {
@@ -21,10 +20,12 @@ namespace atrium {
 /// alive); of those that became ready together, first one that nothing reads (it frees its inputs and keeps nothing),
 /// then the one with the longest way to an end, then the first in the file.
 ///
-/// With a cache a node goes through up to three steps. Look: when the hashes of its inputs are known, so is its key. If
-/// the cache has the record, the node is done: its outputs' hashes are known, their values are not loaded. Else it is
-/// run, and the values that it lacks are fetched first: loaded, or, if they are not kept, made by running the node that
-/// they are of again (which may lack values, too).
+/// With a cache all nodes are decided first (plan_with_cache), then the plan is executed: a node goes when all that it
+/// reads is done, and is taken from the cache or run. Values that are kept are loaded when the first node that reads
+/// them runs. If one cannot be loaded after all (its file is damaged, or somebody has removed it), the node that reads
+/// it and what follows are left for another round: what is left is planned again, now knowing that, and executed. A
+/// node that is run again for its value and gives another one than before (a library has changed, or it depends on more
+/// than its key holds) replaces its record, and in the next round all that depends on it is done anew.
 class Scheduler {
  public:
   Scheduler(const Pipeline& pipeline, const RunOptions& options, ProgressSink& progress);
@@ -33,75 +34,81 @@ class Scheduler {
 
  private:
   using Inputs = std::vector<std::vector<Value>>;
-  enum class Step { look, fetch, run };
   struct Ready {
     std::size_t stamp, node;
     bool is_end;
     std::size_t remaining;
-    Step step;
     bool operator<(const Ready& other) const;
   };
   struct State {
-    std::vector<Value> values;  ///< per output; null when not made or loaded, or no longer needed
-    bool blocked = false;       ///< it cannot run any more
-    std::size_t blocker = 0;    ///< the first failed node that it depends on, or the number of nodes
-    bool settled = false;       ///< its followers know what became of it
+    std::vector<Value> values;         ///< per output; null when not made or loaded, or no longer needed
+    std::vector<std::size_t> readers;  ///< per output: reads that are to come, of nodes and of the pipeline's outputs
+    std::size_t remaining = 1;         ///< nodes on the longest way to an end, itself included
+    bool settled = false;              ///< it is done, or cannot run any more
+    bool blocked = false;              ///< it cannot run any more
+    bool told = false;                 ///< the progress has heard of its end, and was not told to forget it
+    std::size_t blocker = 0;           ///< the first failed node that it depends on, or the number of nodes
+    // Of a round:
+    bool scheduled = false;
+    std::size_t waits = 0;  ///< edges from scheduled nodes that are not done yet
     // With a cache:
     std::vector<std::string> hashes;      ///< per output, when it is settled
-    NodeKey key;                          ///< empty: it has none
-    std::vector<std::string> files;       ///< fingerprints of the files that it reads, as they were for the key
-    std::vector<char> wanted;             ///< outputs whose values others wait for
-    std::vector<std::size_t> waiters;     ///< nodes that wait for them
-    bool under_way = false;               ///< they are being fetched
-    std::size_t lacking = 0;              ///< nodes whose values it waits for
+    CacheLookup found;                    ///< when it is executed
+    bool unloadable = false;              ///< a value that was said to be kept could not be loaded
+    bool unreplayable = false;            ///< a file that its record names is not kept
+    bool drifted = false;                 ///< run again for its value, it gave another one
+    bool has_new_values = false;          ///< that was in this round
     double cost = 0;                      ///< seconds to have its values again; 0: they are kept
     std::vector<CacheRecord::File> kept;  ///< the files that it wrote
   };
 
+  bool cancelled() const;
+  bool stopping() const;
+  void prepare();
+  void begin_round();
+  std::size_t schedule();
   void step();
   void execute(std::size_t n);
   bool call_watched(std::size_t n, Inputs inputs, std::vector<Value>& outputs, std::optional<std::uint64_t>& growth);
-  void give_memory_back(std::size_t n, std::optional<std::uint64_t> growth);
   bool call(std::size_t n, const Inputs& inputs, std::vector<Value>& outputs);
   void fail(std::size_t n, std::string message, std::string help);
+  void tell(std::size_t n);
   void note_facts(std::size_t n, const std::vector<Value>& outputs);
   void describe(std::size_t n, const std::vector<Value>& outputs);
+  void finish(std::size_t n, const std::vector<Value>& outputs);
   void settle(std::size_t n, const std::vector<Value>& outputs);
-  bool cancelled() const;
-  bool stopping() const;
-  // With a cache (demand.cpp):
+  RunResult result();
+  // With a cache (cached_nodes.cpp):
   void note_builds();
-  void look(std::size_t n);
-  bool find_key(std::size_t n);
+  void hash_inputs();
+  void plan_round();
+  void reopen_readers_of_new_values();
+  void reopen(std::size_t n);
+  bool stands_still();
+  bool take_from_cache(std::size_t n);
+  bool is_planned_for_what_is(std::size_t n) const;
   bool replay(std::size_t n, const CacheRecord& found);
-  void settle_with_cache(std::size_t n, const std::vector<Value>& outputs);
-  void fetch(std::size_t p);
-  void settle_again(std::size_t n, const std::vector<Value>& outputs);
-  void abandon(std::size_t n);
-  void drop_waiters(std::size_t n);
-  bool hashes_are_right(std::size_t n);
+  bool load_inputs(std::size_t n);
+  std::string compare_with_record(std::size_t n);
+  void run_for_values(std::size_t n);
+  void take_new_values(std::size_t n, const std::string& drift);
   void keep(std::size_t n, const std::vector<Value>& outputs, std::optional<std::uint64_t> growth);
-  double cost_of_inputs(std::size_t n);
+  double cost_of_inputs(std::size_t n) const;
   // With mutex_ held:
-  void push(std::size_t n, Step step);
-  std::size_t retry_refused();
-  std::optional<std::size_t> lost_producer(std::size_t n);
-  std::size_t demand(std::size_t n);
-  std::size_t wake(std::size_t p);
-  std::vector<std::size_t> take_waiters(std::size_t p);
-  void lose(std::size_t n, std::size_t by);
-  Inputs inputs_of(std::size_t n) const;
+  void push(std::size_t n);
+  Inputs values_for(std::size_t n) const;
   void keep_outputs(std::size_t n, const std::vector<Value>& outputs);
   void release_inputs(std::size_t n, std::vector<Value>& garbage);
   void block(std::size_t follower, std::size_t by);
-  void pass_over(std::size_t n, std::vector<Value>& garbage);
+  bool pass_over(std::size_t n, std::vector<Value>& garbage);
   std::size_t release_followers(std::size_t n, std::vector<Value>& garbage, std::vector<std::size_t>& passed);
 
   const Pipeline& pipeline_;
   const RunOptions& options_;
   ProgressSink& progress_;
   Cache* cache_;
-  Plan plan_;
+  std::vector<std::size_t> order_;
+  std::vector<PlannedNode> plan_;  ///< of this round; not written while it is executed
   PngStamp picture_stamp_;
   double start_ = 0;
   std::atomic<std::uint64_t> peak_memory_ = 0;
@@ -110,7 +117,9 @@ class Scheduler {
   std::mutex mutex_;
   std::priority_queue<Ready> ready_;
   std::size_t stamp_ = 0;
-  Admission admission_;
+  std::size_t lost_ = 0;      ///< nodes of this round that lack a value, or give a new one
+  std::size_t settled_ = 0;   ///< nodes that were settled in this round
+  std::size_t findings_ = 0;  ///< nodes of which a round found that their values or files cannot be had as they were
   MemoryWatch memory_watch_;
   std::vector<State> states_;
   RunResult result_;

@@ -3,56 +3,41 @@
 #include <algorithm>
 
 #include "graph/cache/costs.hpp"
+#include "graph/run/cache_plan.hpp"
+#include "graph/sweep/recorder.hpp"
 
 namespace atrium {
 namespace {
 
-/// The hashes of a node's outputs, if the cache knows them.
-std::vector<std::string> known_outputs(const PipelineNode& node, const std::vector<std::vector<std::string>>& outputs,
-                                       Cache& cache) {
-  if (!node.type->cached) return {};
-  std::vector<std::vector<std::string>> inputs;
-  for (const auto& port : node.inputs) {
-    auto& list = inputs.emplace_back();
-    for (const Edge& edge : port) {
-      if (outputs[edge.node].empty()) return {};
-      list.push_back(outputs[edge.node].at(edge.output));
-    }
-  }
-  std::vector<std::string> hashes;
-  try {
-    const auto record = cache.find(node.type->type, cache.key_of(node, inputs).hex());
-    if (!record) return {};
-    for (const auto& output : record->outputs) hashes.push_back(output.hash);
-  } catch (const Error&) {
-    return {};
-  }
-  hashes.emplace_back();  // also a node without outputs is known
-  return hashes;
+/// Of the nodes that are wanted: whether the cache has their record.
+std::vector<bool> known_nodes(const Dataflow& graph, const std::vector<std::size_t>& wanted, Cache* cache) {
+  std::vector<bool> known(node_count(graph), false);
+  if (cache == nullptr) return known;
+  const Dataflow part = part_of(graph, wanted);
+  const auto plan = plan_with_cache(part, topological_order(part), *cache);
+  for (std::size_t i = 0; i < wanted.size(); ++i) known[wanted[i]] = plan[i].found.record.has_value();
+  return known;
 }
 
 }  // namespace
 
 SweepForecast forecast(const SweepPlan& plan, const std::vector<bool>& done, Cache* cache) {
   SweepForecast result;
-  const auto& nodes = plan.merged.nodes;
-  std::vector<bool> wanted(nodes.size(), false);
-  for (std::size_t v = 0; v < plan.variants.size(); ++v)
-    if (!done[v])
-      for (const std::size_t n : plan.variants[v].nodes) wanted[n] = true;
-  std::vector<std::vector<std::string>> outputs(nodes.size());
-  std::vector<double> seconds_of(nodes.size(), 0);
+  const Dataflow& graph = plan.merged;
+  std::vector<bool> variants = done;
+  variants.flip();
+  const std::vector<std::size_t> wanted = nodes_of(plan, variants);
+  const std::vector<bool> known = known_nodes(graph, wanted, cache);
+  std::vector<double> seconds_of(node_count(graph), 0);
   Costs costs(cache == nullptr ? CachePlaces{} : cache->places());
-  result.nodes.resize(nodes.size(), SweepForecast::Node::known);
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    if (!wanted[n]) continue;
-    if (cache != nullptr) outputs[n] = known_outputs(nodes[n], outputs, *cache);
-    if (!outputs[n].empty()) {
+  result.nodes.resize(node_count(graph), SweepForecast::Node::known);
+  for (const std::size_t n : wanted) {
+    if (known[n]) {
       ++result.known;
       continue;
     }
     ++result.to_run;
-    const auto cost = cache == nullptr ? std::nullopt : costs.of(nodes[n].type->type, address_of(nodes[n]));
+    const auto cost = cache == nullptr ? std::nullopt : costs.of(graph[n].type->type, address_of(graph[n]));
     result.nodes[n] = cost ? SweepForecast::Node::to_run : SweepForecast::Node::unknown_cost;
     result.unknown += cost ? 0 : 1;
     seconds_of[n] = cost ? cost->wall : 0;

@@ -33,7 +33,7 @@ struct Shard {
 /// Now, by the clock of the file system: that of this machine may be another.
 fs::file_time_type now_in(const fs::path& folder) {
   const fs::path probe = folder / ".now";
-  std::ofstream(probe) << "\n";
+  AtomicFile(probe).publish();
   std::error_code error;
   const auto time = fs::last_write_time(probe, error);
   fs::remove(probe, error);

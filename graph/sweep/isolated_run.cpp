@@ -40,7 +40,7 @@ bool writes_files(const NodeType& type) {
 VariantNote note_of(const SweepPlan& plan, const SweepVariant& variant, VariantName name) {
   VariantNote note{std::move(name), {}};
   for (const std::size_t n : variant.nodes) {
-    const PipelineNode& node = plan.merged.nodes[n];
+    const PipelineNode& node = plan.merged[n];
     const std::string owner = node.folder.filename().string();
     if (owner != variant.id && writes_files(*node.type)) note.stamps.emplace_back(address_in_variant(node), owner);
   }
@@ -71,7 +71,6 @@ std::vector<std::string> IsolatedRun::command(const std::vector<std::string>& na
   std::vector<std::string> command{options_.program, "sweep", "work", options_.out.string()};
   command.insert(command.end(), names.begin(), names.end());
   command.insert(command.end(), {"--here", "--build", options_.build, "-j", std::to_string(threads)});
-  if (options_.memory > 0) command.insert(command.end(), {"--mem", std::to_string(options_.memory) + " B"});
   command.insert(command.end(), options_.arguments.begin(), options_.arguments.end());
   return command;
 }
@@ -88,7 +87,7 @@ std::optional<std::uint64_t> IsolatedRun::memory_of(const std::vector<std::size_
   std::uint64_t most = 0;
   for (const std::size_t n : nodes) {
     if (forecast_.nodes[n] == SweepForecast::Node::known) continue;
-    const auto cost = costs_.of(plan_.merged.nodes[n].type->type, address_in_variant(plan_.merged.nodes[n]));
+    const auto cost = costs_.of(plan_.merged[n].type->type, address_in_variant(plan_.merged[n]));
     if (!cost || !cost->memory) return learned_ > 0 ? std::optional(learned_) : std::nullopt;
     most = std::max(most, *cost->memory);
   }
@@ -187,9 +186,9 @@ void IsolatedRun::settle(std::size_t v, const PoolEnd& end) {
   if (end.how == PoolEnd::How::done) return;  // cancelled
   for (const auto& node : end.nodes)
     hear(variant.id, 0, {{"e", "crashed"}, {"node", node}, {"message", "crashed: " + end.reason}});
-  std::vector<NodeRecord> records(plan_.merged.nodes.size());
+  std::vector<NodeRecord> records(node_count(plan_.merged));
   for (const std::size_t n : variant.nodes) {
-    const PipelineNode& node = plan_.merged.nodes[n];
+    const PipelineNode& node = plan_.merged[n];
     const NodeRecord* told = joined_.record_of(variant.id + "/" + address_in_variant(node));
     if (told != nullptr) records[n] = *told;
     records[n].type = node.type->type;

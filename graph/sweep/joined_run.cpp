@@ -23,24 +23,23 @@ int rank_of(const NodeRecord& record) {
 
 JoinedRun::JoinedRun(const SweepPlan& plan, const std::vector<bool>& wanted, double started, ProgressSink& progress)
     : progress_(progress), started_(started) {
-  const std::vector<bool> nodes = nodes_of(plan, wanted);
+  const std::vector<std::size_t> nodes = nodes_of(plan, wanted);
   pipeline_ = part_of(plan.merged, nodes);
-  std::vector<std::size_t> place(nodes.size(), 0);
-  for (std::size_t n = 0, next = 0; n < nodes.size(); ++n) {
-    if (!nodes[n]) continue;
-    index_.emplace(plan.merged.nodes[n].path, next);
-    place[n] = next++;
+  std::vector<std::size_t> place(node_count(plan.merged), 0);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    index_.emplace(plan.merged[nodes[i]].path, i);
+    place[nodes[i]] = i;
   }
   for (std::size_t v = 0; v < plan.variants.size(); ++v)
     for (const std::size_t n : plan.variants[v].nodes)
-      if (wanted[v]) index_.emplace(plan.variants[v].id + "/" + address_in_variant(plan.merged.nodes[n]), place[n]);
-  const std::size_t size = pipeline_.nodes.size();
+      if (wanted[v]) index_.emplace(plan.variants[v].id + "/" + address_in_variant(plan.merged[n]), place[n]);
+  const std::size_t size = node_count(pipeline_);
   records_.resize(size);
   ranks_.resize(size, 0);
   finished_.resize(size, false);
   for (std::size_t n = 0; n < size; ++n) {
-    records_[n].node = pipeline_.nodes[n].path;
-    records_[n].type = pipeline_.nodes[n].type->type;
+    records_[n].node = pipeline_[n].path;
+    records_[n].type = pipeline_[n].type->type;
   }
   progress_.planned(size);
 }
@@ -61,7 +60,7 @@ void JoinedRun::hear(const std::string& process, std::size_t lane, const Json& e
   if (!event.contains("node")) return;
   const auto found = index_.find(event.at("node").get<std::string>());
   if (found == index_.end() || finished_[found->second]) return;
-  const std::string& node = pipeline_.nodes[found->second].path;
+  const std::string& node = pipeline_[found->second].path;
   if (kind == "started") progress_.started(node);
   if (kind == "share") progress_.progress(node, event.at("share").get<double>());
   if (kind == "said") progress_.message(node, event.at("text").get<std::string>(), event.at("warning").get<bool>());
@@ -77,9 +76,8 @@ void JoinedRun::take(NodeRecord record, double shift, std::size_t lane) {
   const std::size_t n = found->second;
   const std::string own = "variants/" + record.node.substr(0, record.node.find('/')) + "/";
   for (auto& file : record.artefacts)  // each variant has its copy
-    if (file.path.starts_with(own))
-      file.path = (pipeline_.nodes[n].folder / file.path.substr(own.size())).generic_string();
-  record.node = pipeline_.nodes[n].path;
+    if (file.path.starts_with(own)) file.path = (pipeline_[n].folder / file.path.substr(own.size())).generic_string();
+  record.node = pipeline_[n].path;
   if (const int rank = rank_of(record); rank >= ranks_[n]) {
     ranks_[n] = rank;
     records_[n] = record;
@@ -98,7 +96,7 @@ void JoinedRun::crashed(const std::string& node, const std::string& message) {
   if (found == index_.end()) return;
   NodeRecord record;
   record.node = node;
-  record.type = pipeline_.nodes[found->second].type->type;
+  record.type = pipeline_[found->second].type->type;
   record.status = NodeStatus::failed;
   record.message = message;
   take(std::move(record), 0, 0);
@@ -110,13 +108,12 @@ const NodeRecord* JoinedRun::record_of(const std::string& node) const {
 }
 
 void mark_skipped(const Pipeline& pipeline, std::size_t node, std::vector<NodeRecord>& records) {
-  for (const auto& port : pipeline.nodes[node].inputs)
-    for (const Edge& edge : port) {
-      const NodeRecord& from = records[edge.node];
-      if (from.status != NodeStatus::failed && from.status != NodeStatus::skipped) continue;
-      records[node].status = NodeStatus::skipped;
-      records[node].because = from.status == NodeStatus::failed ? from.node : from.because;
-    }
+  for (const auto& edge : edges_into(node, pipeline)) {
+    const NodeRecord& from = records[boost::source(edge, pipeline)];
+    if (from.status != NodeStatus::failed && from.status != NodeStatus::skipped) continue;
+    records[node].status = NodeStatus::skipped;
+    records[node].because = from.status == NodeStatus::failed ? from.node : from.because;
+  }
 }
 
 RunResult JoinedRun::run() const {

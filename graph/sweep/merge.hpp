@@ -7,13 +7,15 @@
 
 namespace atrium {
 
-/// A variant's id: from what its resolved file says.
-std::string id_of(const Pipeline& pipeline);
+/// A variant's id: from what its resolved file says, with files as seen from the sweep file's folder: the same wherever
+/// a checkout stands.
+std::string id_of(const Pipeline& pipeline, const std::filesystem::path& folder);
 
 /// Puts pipelines together into one graph, SweepPlan::merged.
 class VariantMerger {
  public:
-  explicit VariantMerger(SweepPlan& plan) : plan_(plan) {}
+  /// `folder`: of the sweep file.
+  VariantMerger(SweepPlan& plan, std::filesystem::path folder) : plan_(plan), folder_(std::move(folder)) {}
   struct Added {
     std::size_t variant;  ///< in SweepPlan::variants
     bool fresh;           ///< false: the same pipeline was there already
@@ -21,9 +23,10 @@ class VariantMerger {
   Added add(const Pipeline& pipeline, std::vector<std::size_t> choices);
 
  private:
-  std::size_t place(const PipelineNode& node, const SweepVariant& variant);
+  std::size_t place(std::size_t n, const Pipeline& pipeline, const SweepVariant& variant);
 
   SweepPlan& plan_;
+  std::filesystem::path folder_;
   std::unordered_map<std::string, std::size_t> ids_, nodes_;
   std::vector<std::string> keys_;
 };
@@ -33,8 +36,5 @@ Pipeline variant_pipeline(const SweepPlan& plan, const SweepVariant& variant);
 
 /// A node's address in its variant: "ID/planes" is "planes".
 std::string address_in_variant(const PipelineNode& node);
-
-/// The graph with the wanted nodes only; of each wanted one, what it reads must be wanted too.
-Pipeline part_of(const Pipeline& merged, const std::vector<bool>& wanted);
 
 }  // namespace atrium

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "graph/api/suggest.hpp"
@@ -105,7 +106,7 @@ class Planner {
       const auto same = [&](const Override& o) { return o.text.starts_with(setting.target + "="); };
       if (std::any_of(given_.begin(), given_.end(), same)) return;  // the command line wins
       result.push_back({setting.target + "=" + setting.value, to_string(Where{&sweep_.source, setting.place}),
-                        sweep_.source.folder});
+                        sweep_.source.folder, setting.node});
     };
     for (const auto& setting : sweep_.settings) add(setting);
     for (std::size_t a = 0; a < choices.size(); ++a)
@@ -125,7 +126,7 @@ class Planner {
     keep(loaded.warnings, warnings_, result_.warnings);
     if (!loaded.errors.empty()) return;
     check_metrics(loaded.pipeline);
-    result_.plan.merged.summary = loaded.pipeline.summary;
+    result_.plan.merged[whole].summary = loaded.pipeline[whole].summary;
     merge(loaded.pipeline, choices);
   }
 
@@ -136,7 +137,8 @@ class Planner {
 
   /// The outputs and nodes that the table and the pictures are made from.
   void check_metrics(const Pipeline& pipeline) {
-    const auto outputs = words_of(pipeline.outputs, [](const PipelineOutput& output) { return output.name; });
+    const auto outputs = words_of(pipeline[whole].outputs, [](const PipelineOutput& output) { return output.name; });
+    const auto nodes = all_nodes(pipeline);
     for (const auto& metric : sweep_.metrics) {
       const Where where{&sweep_.source, metric.place};
       if (metric.kind == SweepMetric::Kind::fact) {
@@ -146,9 +148,8 @@ class Planner {
                         !hint.empty()     ? hint
                         : outputs.empty() ? "list what is to be shown under its `outputs:`"
                                           : "its outputs: " + join_words(outputs, 40));
-      } else if (!metric.node.empty() &&
-                 std::none_of(pipeline.nodes.begin(), pipeline.nodes.end(), [&](const PipelineNode& node) {
-                   return node.path == metric.node || node.path.starts_with(metric.node + "/");
+      } else if (!metric.node.empty() && std::none_of(nodes.begin(), nodes.end(), [&](std::size_t n) {
+                   return pipeline[n].path == metric.node || pipeline[n].path.starts_with(metric.node + "/");
                  })) {
         findings_.error(where, fmt::format("a variant has no node '{}'", metric.node));
       }
@@ -168,7 +169,7 @@ class Planner {
 
   void finish() {
     SweepPlan& plan = result_.plan;
-    plan.merged.file = sweep_.path;
+    plan.merged[whole].file = sweep_.path;
     for (std::size_t e = 0; e < excludes_.size(); ++e)
       if (excludes_[e] == 0 && result_.errors.empty() && findings_.error_count() == 0)
         findings_.error({&sweep_.source, sweep_.exclude[e].empty() ? Place{} : sweep_.exclude[e].front().place},
@@ -188,7 +189,7 @@ class Planner {
   SweepLoad result_;
   std::set<std::string> errors_, warnings_;
   std::vector<std::size_t> excludes_;
-  VariantMerger merger_{result_.plan};
+  VariantMerger merger_{result_.plan, sweep_.source.folder};
 };
 
 }  // namespace
@@ -207,6 +208,25 @@ std::string label_of(const SweepFile& sweep, const SweepVariant& variant) {
     label += (label.empty() ? "" : ", ") + (named ? choice : axis.name + " = " + choice);
   }
   return label.empty() ? "the only variant" : label;
+}
+
+std::string caption_of(const SweepFile& sweep, const SweepVariant& variant) {
+  const auto last = [](const std::string& name) { return name.substr(name.find_last_of("./") + 1); };
+  std::map<std::string, int> uses;
+  for (const auto& axis : sweep.axes)
+    if (axis.choices.size() > 1) ++uses[last(axis.name)];
+  std::string caption;
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
+    const SweepAxis& axis = sweep.axes[a];
+    if (axis.choices.size() < 2) continue;
+    const std::string& choice = axis.choices[variant.choices[a]].label;
+    const bool named = axis.name == "scene" || axis.name == "variant" || axis.name == "ablation";
+    const std::string name = uses[last(axis.name)] > 1 ? axis.name : last(axis.name);
+    if (!caption.empty()) caption += ", ";
+    if (!named) caption.append(name).append(" ");
+    caption += choice;
+  }
+  return caption.empty() ? "the only variant" : caption;
 }
 
 VariantName name_of(const SweepFile& sweep, const SweepVariant& variant) {

@@ -1,5 +1,7 @@
 #include "graph/sweep/recorder.hpp"
 
+#include <set>
+
 #include "graph/run/run_folder.hpp"
 #include "graph/sweep/merge.hpp"
 
@@ -8,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void add_node(const PipelineNode& node, const NodeRecord& record, VariantResult& result) {
+void add_node_result(const PipelineNode& node, const NodeRecord& record, VariantResult& result) {
   const std::string path = address_in_variant(node);
   result.nodes.push_back({path, record.type, record.status, record.computing_wall(), record.computing_cpu(),
                           record.computing_memory(), record.outputs, record.is_hit() && !record.cache.again,
@@ -44,19 +46,18 @@ void begin_variant(const fs::path& out, const SweepPlan& plan, const SweepVarian
   write_file(folder / "resolved.yaml", resolved_yaml(variant_pipeline(plan, variant)), false);
 }
 
-std::vector<bool> nodes_of(const SweepPlan& plan, const std::vector<bool>& variants) {
-  std::vector<bool> wanted(plan.merged.nodes.size(), false);
+std::vector<std::size_t> nodes_of(const SweepPlan& plan, const std::vector<bool>& variants) {
+  std::set<std::size_t> nodes;
   for (std::size_t v = 0; v < plan.variants.size(); ++v)
-    if (variants[v])
-      for (const std::size_t n : plan.variants[v].nodes) wanted[n] = true;
-  return wanted;
+    if (variants[v]) nodes.insert(plan.variants[v].nodes.begin(), plan.variants[v].nodes.end());
+  return {nodes.begin(), nodes.end()};
 }
 
 VariantResult result_of(const SweepPlan& plan, const SweepVariant& variant,
                         const std::function<const NodeRecord&(std::size_t node)>& record) {
   VariantResult result;
   result.status = VariantStatus::ok;
-  for (const std::size_t n : variant.nodes) add_node(plan.merged.nodes[n], record(n), result);
+  for (const std::size_t n : variant.nodes) add_node_result(plan.merged[n], record(n), result);
   for (const auto& output : variant.outputs) {
     const NodeRecord& from = record(output.from.node);
     if (from.status == NodeStatus::ok && !from.facts[output.from.output].empty())
@@ -69,12 +70,12 @@ Recorder::Recorder(const SweepPlan& plan, const std::vector<bool>& wanted, Optio
     : plan_(plan),
       options_(std::move(options)),
       progress_(progress),
-      variants_of_(plan.merged.nodes.size()),
+      variants_of_(node_count(plan.merged)),
       left_(plan.variants.size(), 0),
       inputs_(plan.variants.size()),
-      records_(plan.merged.nodes.size()),
+      records_(node_count(plan.merged)),
       variants_(plan.variants.size()) {
-  for (std::size_t n = 0; n < plan.merged.nodes.size(); ++n) index_.emplace(plan.merged.nodes[n].path, n);
+  for (const std::size_t n : all_nodes(plan.merged)) index_.emplace(plan.merged[n].path, n);
   for (std::size_t v = 0; v < plan.variants.size(); ++v) {
     if (!wanted[v]) continue;
     left_[v] = plan.variants[v].nodes.size();
@@ -93,6 +94,17 @@ void Recorder::described(const NodeRecord& record) {
   settle(record);
 }
 
+/// Variants that were recorded with the node are not done any more.
+void Recorder::reopened(const std::string& node) {
+  progress_.reopened(node);
+  const std::lock_guard lock(mutex_);
+  for (const std::size_t v : variants_of_[index_.at(node)]) {
+    if (left_[v]++ > 0) continue;
+    std::error_code ignored;
+    fs::remove(variant_folder(options_.out, plan_.variants[v]) / "result.json", ignored);
+  }
+}
+
 const PngStamp& Recorder::stamp_of_variant(const PipelineNode& node) {
   const std::lock_guard lock(mutex_);
   const auto [known, fresh] = stamps_.try_emplace(node.folder.filename().string());
@@ -103,11 +115,15 @@ const PngStamp& Recorder::stamp_of_variant(const PipelineNode& node) {
 }
 
 void Recorder::settle(const NodeRecord& record) {
-  const std::lock_guard lock(mutex_);
   const std::size_t n = index_.at(record.node);
-  records_[n] = record;
-  for (const std::size_t v : variants_of_[n])
-    if (--left_[v] == 0) record_variant(v);
+  std::vector<std::size_t> done;
+  {
+    const std::lock_guard lock(mutex_);
+    records_[n] = record;
+    for (const std::size_t v : variants_of_[n])
+      if (--left_[v] == 0) done.push_back(v);
+  }
+  for (const std::size_t v : done) record_variant(v);  // hashes all of its files: others need not wait for that
 }
 
 void Recorder::record_variant(std::size_t v) {
@@ -129,13 +145,16 @@ void Recorder::record_variant(std::size_t v) {
 /// A file that another variant's node wrote for both is linked, so that each variant's folder is complete.
 void Recorder::add_artefact(const SweepVariant& variant, std::size_t n, const Artefact& artefact,
                             VariantResult& result) {
-  const fs::path folder = plan_.merged.nodes[n].folder;
+  const fs::path folder = plan_.merged[n].folder;
   const fs::path relative = fs::path(artefact.path).lexically_relative(folder);
+  if (relative.empty() || *relative.begin() == "..")
+    return;  // a node that writes elsewhere: it is in no variant's folder
   result.artefacts.push_back({relative.generic_string(), artefact.bytes});
   const fs::path target = variant_folder(options_.out, variant) / relative;
   const fs::path source = options_.out / artefact.path;
   std::error_code error;
-  if (source == target || fs::exists(target, error)) return;
+  if (source == target || fs::equivalent(source, target, error)) return;
+  fs::remove(target, error);  // of a node that was run again since
   fs::create_directories(target.parent_path(), error);
   fs::create_hard_link(source, target, error);
   if (error) fs::copy_file(source, target, error);

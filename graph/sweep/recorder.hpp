@@ -18,8 +18,8 @@ std::vector<std::optional<VariantResult>> done_variants(const std::filesystem::p
 /// Empties the folder of a variant that is to be run, and writes its resolved.yaml.
 void begin_variant(const std::filesystem::path& out, const SweepPlan& plan, const SweepVariant& variant);
 
-/// The nodes of the variants that are to be run.
-std::vector<bool> nodes_of(const SweepPlan& plan, const std::vector<bool>& variants);
+/// The nodes of the variants that are to be run, in the order of the merged graph.
+std::vector<std::size_t> nodes_of(const SweepPlan& plan, const std::vector<bool>& variants);
 
 /// Gathers what the nodes of the merged graph report, and records each variant (result.json) when its last node is
 /// done.
@@ -41,6 +41,7 @@ class Recorder final : public ProgressSink {
     progress_.message(node, text, warning);
   }
   void finished(const NodeRecord& record) override;
+  void reopened(const std::string& node) override;
   void described(const NodeRecord& record) override;
 
   /// A picture shows a variant: the first that has the node which drew it.
@@ -58,7 +59,7 @@ class Recorder final : public ProgressSink {
   const SweepPlan& plan_;
   Options options_;
   ProgressSink& progress_;
-  std::mutex mutex_;
+  std::mutex mutex_;  ///< of stamps_, records_ and left_; a variant whose nodes are done is one thread's alone
   std::unordered_map<std::string, std::size_t> index_;
   std::vector<std::vector<std::size_t>> variants_of_;
   std::vector<std::size_t> left_;
@@ -66,7 +67,7 @@ class Recorder final : public ProgressSink {
   std::vector<NodeRecord> records_;
   std::vector<VariantResult> variants_;
   std::map<std::string, PngStamp> stamps_;  ///< by variant
-  std::size_t failures_ = 0;
+  std::atomic<std::size_t> failures_ = 0;
   std::atomic<bool> stop_ = false;
 };
 

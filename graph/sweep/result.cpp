@@ -3,6 +3,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/fact_json.hpp"
+#include "graph/api/files.hpp"
 #include "graph/api/json_text.hpp"
 #include "graph/cache/blob.hpp"
 #include "graph/cache/node_key.hpp"
@@ -44,7 +46,7 @@ Json node_json(const VariantResult::Node& node) {
 Json inputs_of(const SweepPlan& plan, const SweepVariant& variant) {
   Json inputs = Json::array();
   for (const std::size_t n : variant.nodes)
-    for (const auto& path : input_files(plan.merged.nodes[n])) inputs.push_back(state_of(path));
+    for (const auto& path : input_files(plan.merged[n])) inputs.push_back(state_of(path));
   return inputs;
 }
 
@@ -142,9 +144,10 @@ std::optional<VariantResult> reusable_result(const fs::path& folder, const Sweep
     if (json.at("build") != build || json.at("status") != "ok" || json.at("inputs") != inputs_of(plan, variant))
       return std::nullopt;
     VariantResult result = read_result_json(json);
-    for (const auto& artefact : json.at("artefacts"))
-      if (hash_if_readable(folder / artefact.at("path").get<std::string>()) != artefact.at("hash").get<std::string>())
-        return std::nullopt;
+    for (const auto& artefact : json.at("artefacts")) {
+      const auto file = place_inside(folder, artefact.at("path").get<std::string>());
+      if (!file || hash_if_readable(*file) != artefact.at("hash").get<std::string>()) return std::nullopt;
+    }
     result.reused = true;
     return result;
   } catch (const Json::exception&) {  // of another version, or not ours

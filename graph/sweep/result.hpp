@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,6 +69,11 @@ std::optional<VariantResult> reusable_result(const std::filesystem::path& folder
 /// wrong with metrics that no variant has.
 Table full_table(const SweepFile& sweep, const SweepPlan& plan, const std::vector<VariantResult>& results,
                  std::vector<std::string>* unknown = nullptr);
+
+/// The same as JSON: {"columns": [{"title": …, "kind": "text" | "axis" | "drawn" | "metric", "name": …, "unit": …}],
+/// "variants": [{TITLE: …}]}, with numbers as numbers.
+nlohmann::ordered_json table_json(const SweepFile& sweep, const SweepPlan& plan,
+                                  const std::vector<VariantResult>& results);
 
 /// The same for people: rounded, and one row for all seeds ("mean ± standard deviation").
 Table short_table(const SweepFile& sweep, const SweepPlan& plan, const std::vector<VariantResult>& results);

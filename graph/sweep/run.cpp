@@ -8,8 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "graph/cache/costs.hpp"
-#include "graph/run/clocks.hpp"
+#include "graph/api/clocks.hpp"
 #include "graph/run/manifest.hpp"
 #include "graph/run/run_folder.hpp"
 #include "graph/run/scheduler.hpp"
@@ -34,13 +33,6 @@ RunResult run_together(const Pipeline& pipeline, const SweepOptions& options, Re
   run_options.cancel = options.cancel;
   run_options.stop = recorder.stop();
   run_options.cache = options.cache;
-  Costs costs(options.cache == nullptr ? CachePlaces{} : options.cache->places());
-  run_options.memory = options.memory;
-  if (options.cache != nullptr)
-    run_options.memory_of = [&](const PipelineNode& node) -> std::optional<std::uint64_t> {
-      const auto cost = costs.of(node.type->type, address_of(node));
-      return cost ? cost->memory : std::nullopt;
-    };
   run_options.stamp = [&](const PipelineNode& node) -> const PngStamp& { return recorder.stamp_of_variant(node); };
   const double cpu = process_cpu_seconds();
   RunResult run = Scheduler(pipeline, run_options, recorder).run();
@@ -101,9 +93,41 @@ RunResult run_isolated(const SweepPlan& plan, const std::vector<bool>& wanted, c
 
 }  // namespace
 
+namespace {
+
+/// A label as the name of a file.
+std::string file_name_of(const std::string& label) {
+  constexpr std::size_t longest = 120;
+  std::string name;
+  for (const char c : label) name += c == '/' || static_cast<unsigned char>(c) < 0x20 ? '_' : c;
+  while (name.size() > longest ||
+         (!name.empty() && (static_cast<unsigned char>(name.back()) & 0xC0U) == 0x80U && name.size() > longest - 4))
+    name.pop_back();
+  return name.starts_with('.') ? "_" + name : name;
+}
+
+/// OUT/by_label/LABEL leads to the variant's folder, whose name is its id.
+void write_labels(const fs::path& out, const SweepFile& sweep, const SweepPlan& plan) {
+  const fs::path folder = out / "by_label";
+  std::error_code ignored;
+  if (fs::is_symlink(folder, ignored)) return;  // somebody's own folder
+  if (!fs::exists(folder, ignored)) fs::create_directories(folder, ignored);
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (entry.is_symlink(ignored)) fs::remove(entry.path(), ignored);
+  for (const auto& variant : plan.variants) {
+    fs::path link = folder / file_name_of(caption_of(sweep, variant));
+    if (fs::symlink_status(link, ignored).type() != fs::file_type::not_found) link += " " + variant.id;
+    fs::create_directory_symlink(fs::path("..") / "variants" / variant.id, link, ignored);
+  }
+}
+
+}  // namespace
+
 void write_tables(const fs::path& out, const SweepFile& sweep, const SweepPlan& plan,
                   const std::vector<VariantResult>& results) {
+  write_labels(out, sweep, plan);
   write_file(out / "table.csv", as_csv(full_table(sweep, plan, results)));
+  write_file(out / "table.json", json_text(table_json(sweep, plan, results), 1) + "\n");
   const Table table = short_table(sweep, plan, results);
   write_file(out / "table.md", as_markdown(table));
   write_file(out / "table.txt", as_text(table));
@@ -136,7 +160,7 @@ SweepResult run_sweep(const SweepFile& sweep, const SweepPlan& plan, const std::
     if (wanted.back()) begin_variant(options.out, plan, plan.variants[wanted.size() - 1]);
   }
   const Pipeline pipeline = part_of(plan.merged, nodes_of(plan, wanted));
-  if (!pipeline.nodes.empty()) {
+  if (node_count(pipeline) > 0) {
     const double start = wall_seconds();
     RunResult run;
     if (options.isolation) {

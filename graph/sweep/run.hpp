@@ -10,7 +10,7 @@ struct SweepOptions {
   std::size_t max_failures = ~std::size_t{0};  ///< end the sweep when so many variants have failed
   const std::atomic<bool>* cancel = nullptr;
   Cache* cache = nullptr;
-  std::uint64_t memory = 0;  ///< bytes that the nodes which run at the same time may need together; 0: any
+  std::uint64_t memory = 0;  ///< of all processes together, in isolation; bytes; 0: any
   /// Each variant in a process of its own: the program, and what every worker is told of the cache.
   struct Isolation {
     std::string program;
@@ -31,7 +31,7 @@ struct SweepResult {
 
 /// Runs the variants that are not done yet, nodes that several share once, into OUT/variants/ID. A variant is recorded
 /// (result.json) as soon as its last node is done: a sweep that is killed goes on where it was. A variant that fails
-/// costs the others nothing. In isolation --mem is a limit that is kept, not an estimate. Writes table.csv, table.md
+/// costs the others nothing. Writes table.csv, table.json, table.md
 /// and table.txt. Throws FolderError.
 SweepResult run_sweep(const SweepFile& sweep, const SweepPlan& plan, const std::string& build,
                       const SweepOptions& options, ProgressSink& progress);

@@ -69,16 +69,19 @@ void run_shard(const fs::path& out, const std::string& name, const std::string& 
   const Submission submission = read_submission(out);
   const WorkerTask task = read_task_file(out / farm_folder / name);
   if (build != submission.build)
-    throw Error("the program or its plugins are not those that the sweep was submitted with",
-                "submit it again: what is done is not done again");
+    throw Error(
+        "the plugins of this machine, or the libraries that they use, are not those that the sweep was submitted "
+        "with",
+        "if they were changed since, submit it again (what is done is not done again); else install the same "
+        "packages on all machines");
   const SweepFolder folder(out);
   SweepPlan plan;
-  VariantMerger merger(plan);
+  VariantMerger merger(plan, folder_of_sweep_file(out));
   std::map<std::string, VariantName> names;
   const bool shared = !task.parts.front().nodes.empty();
   for (const auto& part : task.parts) {
     const Pipeline pipeline = load_variant(out, part.id, registry);
-    plan.merged.summary = pipeline.summary;
+    plan.merged[whole].summary = pipeline[whole].summary;
     merger.add(pipeline, {});
     if (!shared) names.emplace(part.id, read_note(out / "variants" / part.id).name);
   }

@@ -29,7 +29,7 @@ void set(PipelineNode& node, std::string_view name, const ParamValue& value) {
 }
 
 PipelineNode make_node(const std::string& path, const NodeType& type) {
-  PipelineNode node{path, &type, {}, std::vector<std::vector<Edge>>(type.inputs.size())};
+  PipelineNode node{path, &type};
   for (const auto& param : type.params) node.params.push_back(param.initial);
   return node;
 }
@@ -52,9 +52,9 @@ std::vector<std::string> write_sheets(const SweepFile& sweep, const SweepPlan& p
       if (!is_shown(sweep, plan.variants[v])) continue;
       files.push_back(
           (std::filesystem::absolute(options.out) / "variants" / plan.variants[v].id / sheet.picture).string());
-      captions.push_back(label_of(sweep, plan.variants[v]) + (results[v].status == VariantStatus::ok
-                                                                  ? ""
-                                                                  : ": " + std::string(name_of(results[v].status))));
+      captions.push_back(caption_of(sweep, plan.variants[v]) + (results[v].status == VariantStatus::ok
+                                                                    ? ""
+                                                                    : ": " + std::string(name_of(results[v].status))));
     }
     Pipeline pipeline;
     PipelineNode reader = make_node("read", *read);
@@ -64,11 +64,11 @@ std::vector<std::string> write_sheets(const SweepFile& sweep, const SweepPlan& p
     set(writer, "path", sheet.file);
     set(writer, "columns", columns_of(sweep, sheet));
     set(writer, "cell_width", sheet.cell_width);
-    writer.inputs[0].push_back({0, 0});
-    pipeline.nodes = {std::move(reader), std::move(writer)};
+    writer.folder = std::filesystem::absolute(options.out);
+    const std::size_t from = add_node(std::move(reader), pipeline);
+    connect({from, 0}, add_node(std::move(writer), pipeline), 0, 0, pipeline);
     RunOptions run_options;
     run_options.threads = options.threads;
-    pipeline.nodes[1].folder = std::filesystem::absolute(options.out);
     ProgressSink silent;
     for (const auto& failure : run_pipeline(pipeline, run_options, silent).failures)
       problems.push_back(fmt::format("{}: {}", sheet.file, failure.message));

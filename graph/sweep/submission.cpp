@@ -36,6 +36,13 @@ std::string for_shell(const std::string& text) {
   return result + "'";
 }
 
+/// Slurm replaces what follows a '%' in the name of an output file.
+std::string without_marks(const std::string& path) {
+  std::string result;
+  for (const char c : path) result += c == '%' ? "%%" : std::string(1, c);
+  return result;
+}
+
 std::string for_shell(const std::vector<std::string>& words) {
   std::string result;
   for (const auto& word : words) result += " " + for_shell(word);
@@ -58,7 +65,7 @@ std::vector<WorkerTask> packed(const std::vector<WorkerTask>& tasks, std::size_t
   return result;
 }
 
-/// Every so-manieth variant: those near each other often take the same time.
+/// Deals variants round-robin, because neighbours tend to cost the same.
 std::vector<WorkerTask> dealt(const SweepPlan& plan, const std::vector<bool>& wanted, std::size_t shards) {
   std::vector<WorkerTask> result(shards);
   std::size_t next = 0;
@@ -92,7 +99,7 @@ SubmitScripts slurm(const Call& call) {
   const auto array = [&](std::string_view kind, std::size_t tasks) {
     return fmt::format("sbatch --parsable --job-name={} --array=1-{} --output={}{}",
                        for_shell(fmt::format("{}-{}", submission.sweep.stem().string(), kind)), tasks,
-                       for_shell((work / fmt::format("{}-%a.log", kind)).string()), threads);
+                       for_shell(without_marks((work / kind).string()) + "-%a.log"), threads);
   };
   const std::string job = " " + for_shell(scripts.job_file.string()) + " ";
   const std::string more = for_shell(options.engine_options);
@@ -110,15 +117,16 @@ SubmitScripts parallel(const Call& call) {
   const Submission& submission = call.submission;
   const SubmitOptions& options = call.options;
   const fs::path& work = call.work;
-  SubmitScripts scripts{{}, work / "submit.sh", {}, {}};
+  SubmitScripts scripts{work / "job.sh", work / "submit.sh", {}, {}};
+  scripts.job =
+      fmt::format("#!/bin/sh\n# One task: $1 is its kind, $2 its number.\nexec >>{}/\"$1-$2.log\" 2>&1\n{}\n",
+                  for_shell(work.string()),
+                  work_command(call, submission.id + "/\"$1-$2\"", std::to_string(std::max(options.threads, 1))));
+  // Without a command parallel runs its input lines as they are: nothing in a path is replaced ({} in a command is).
   const auto stage = [&](std::string_view kind, std::size_t tasks) {
-    const std::string command = fmt::format("{} >>{} 2>&1",
-                                            work_command(call, fmt::format("{}/{}-{{}}", submission.id, kind),
-                                                         std::to_string(std::max(options.threads, 1))),
-                                            for_shell((work / fmt::format("{}-{{}}.log", kind)).string()));
-    return fmt::format("seq {} | parallel --joblog {}{} {}\n", tasks,
-                       for_shell((work / fmt::format("{}.joblog", kind)).string()), for_shell(options.engine_options),
-                       for_shell(command));
+    return fmt::format("for task in $(seq {}); do printf '%s %s\\n' {} \"{} $task\"; done | parallel --joblog {}{}\n",
+                       tasks, for_shell("sh " + for_shell(scripts.job_file.string())), kind,
+                       for_shell((work / fmt::format("{}.joblog", kind)).string()), for_shell(options.engine_options));
   };
   // The number of jobs that failed is no failure of the submission: `gather` says what became of the variants.
   scripts.submit = "#!/bin/sh\n";
@@ -190,6 +198,8 @@ Submission read_submission(const fs::path& out) {
 
 SubmitScripts prepare_submission(const SweepFile& sweep, const SweepPlan& plan, Submission submission,
                                  const SubmitOptions& options) {
+  if (const auto& text = options.out.native(); text.find('\n') != std::string::npos)
+    throw FolderError("the folder's name has a line break: " + text, "choose another folder with --out");
   submission.time = epoch_seconds();
   submission.id = fmt::format("{:%Y%m%dT%H%M%S}-{}", fmt::gmtime(std::time(nullptr)), ::getpid());
   std::vector<bool> wanted;

@@ -1,31 +1,51 @@
 #include "graph/sweep/sweep_file.hpp"
 
 #include <fmt/format.h>
+#include <glob.h>
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 
 #include "graph/api/suggest.hpp"
+#include "graph/pipeline/document.hpp"
 #include "graph/pipeline/find_pipeline.hpp"
+#include "graph/pipeline/utf8.hpp"
 #include "graph/sweep/samples.hpp"
 
 namespace atrium {
 namespace {
 
-/// A value as -s takes it.
-std::string in_double_quotes(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return result + "\"";
+YamlNode scalar_node(std::string text) {
+  YamlNode node;
+  node.kind = YamlNode::Kind::scalar;
+  node.text = std::move(text);
+  return node;
 }
 
-std::string item_text(const YamlNode& node, bool in_list) {
-  const bool plain = !node.quoted && !node.text.empty() && node.text.find_first_of("[\"'") != 0 &&
-                     (!in_list || node.text.find_first_of(",]{}#:") == std::string::npos);
-  return plain ? node.text : in_double_quotes(node.text);
+/// The files of a folder, or those that fit a pattern (glob(3)), by name. It is relative to `from`.
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& from, const std::string& given) {
+  std::vector<std::filesystem::path> files;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(from / given, ignored)) {
+    for (const auto& entry : std::filesystem::directory_iterator(from / given, ignored))
+      if (entry.is_regular_file(ignored) && !entry.path().filename().string().starts_with('.'))
+        files.push_back(entry.path());
+  } else {
+    std::string pattern;
+    if (!std::filesystem::path(given).is_absolute()) {
+      for (const char c : from.string())
+        pattern += (std::string_view("*?[\\").find(c) < 4 ? "\\" : "") + std::string(1, c);
+      pattern += "/";
+    }
+    pattern += given;
+    glob_t found{};
+    if (::glob(pattern.c_str(), 0, nullptr, &found) == 0) files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+    ::globfree(&found);
+  }
+  for (auto& file : files) file = file.lexically_normal();
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 class SweepReader {
@@ -46,7 +66,7 @@ class SweepReader {
     read_base(root);
     if (const auto* entry = root.find("summary")) sweep_.summary = scalar(*entry);
     if (const auto* entry = root.find("set")) sweep_.settings = settings(*entry);
-    named_choices(root.find("scenes"), "scene", {});
+    read_scenes(root.find("scenes"));
     named_choices(root.find("list"), "variant", {});
     named_choices(root.find("ablate"), "ablation", "everything");
     read_zip(root.find("zip"));
@@ -98,11 +118,11 @@ class SweepReader {
   }
 
   std::optional<std::string> value_text(const YamlNode& node, std::string_view target) {
-    if (node.is_scalar()) return item_text(node, false);
+    if (node.is_scalar()) return node.text;
     const auto is_scalar = [](const YamlNode& item) { return item.is_scalar(); };
     if (node.is_sequence() && std::all_of(node.items.begin(), node.items.end(), is_scalar)) {
       std::string list;
-      for (const auto& item : node.items) list += (list.empty() ? "" : ", ") + item_text(item, true);
+      for (const auto& item : node.items) list += (list.empty() ? "" : ", ") + item.text;
       return "[" + list + "]";
     }
     error(node.place, fmt::format("'{}' must be a value or a list of values", target));
@@ -112,7 +132,8 @@ class SweepReader {
   std::vector<SweepSetting> settings(const YamlNode::Entry& entry) {
     std::vector<SweepSetting> result;
     for (const auto& item : mapping(&entry, "write `NODE.PARAMETER: value` lines below it"))
-      if (auto value = value_text(item.value, item.key)) result.push_back({item.key, std::move(*value), item.place});
+      if (auto value = value_text(item.value, item.key))
+        result.push_back({item.key, std::move(*value), item.value, item.place});
     return result;
   }
 
@@ -158,6 +179,38 @@ class SweepReader {
     sweep_.axes.push_back(std::move(axis));
   }
 
+  /// Named settings; or `TARGET: FILES`, a folder or a pattern, each file of which is a scene.
+  void read_scenes(const YamlNode::Entry* section) {
+    const bool files = section != nullptr && section->value.is_mapping() && section->value.entries.size() == 1 &&
+                       section->value.entries.front().value.is_scalar();
+    if (!files) {
+      named_choices(section, "scene", {});
+      return;
+    }
+    const auto& [target, place, value] = section->value.entries.front();
+    const auto found = files_of(sweep_.source.folder, value.text);
+    if (found.empty())
+      error(value.place, fmt::format("no file fits '{}'", value.text),
+            "a folder, or a pattern such as scans/*.ply; it is relative to the file that it stands in");
+    SweepAxis axis{"scene", {}};
+    std::set<std::string> stems, names;
+    for (const auto& file : found) {
+      stems.insert(file.stem().string());
+      names.insert(file.filename().string());
+      if (first_not_text(file.string()) != std::string::npos)
+        error(value.place, fmt::format("the name of a file is not UTF-8: {}", with_escapes(file.string())),
+              "files name everything in UTF-8: rename the file (convmv does it for many)");
+    }
+    for (const auto& file : found) {
+      const std::string label = stems.size() == found.size()   ? file.stem().string()
+                                : names.size() == found.size() ? file.filename().string()
+                                                               : file.lexically_relative(sweep_.source.folder).string();
+      axis.choices.push_back(
+          {label, {{target, file.string(), scalar_node(with_escapes(file.string())), place}}, place});
+    }
+    sweep_.axes.push_back(std::move(axis));
+  }
+
   /// `TARGET: [value, …]`. A value may itself be a list.
   std::vector<SweepChoice> values(const YamlNode::Entry& entry) {
     std::vector<SweepChoice> choices;
@@ -167,7 +220,7 @@ class SweepReader {
     }
     for (const auto& item : entry.value.items)
       if (auto value = value_text(item, entry.key))
-        choices.push_back({item.is_scalar() ? item.text : *value, {{entry.key, *value, item.place}}, item.place});
+        choices.push_back({item.is_scalar() ? item.text : *value, {{entry.key, *value, item, item.place}}, item.place});
     return choices;
   }
 
@@ -222,9 +275,10 @@ class SweepReader {
     for (const auto& entry : mapping(of, "write `TARGET: {uniform: [low, high]}` lines below it")) {
       try {
         const Distribution distribution = read_distribution(entry.value);
-        for (std::size_t i = 0; i < axis.choices.size(); ++i)
-          axis.choices[i].settings.push_back(
-              {entry.key, sample(distribution, static_cast<std::uint64_t>(*start), entry.key, i), entry.place});
+        for (std::size_t i = 0; i < axis.choices.size(); ++i) {
+          std::string drawn = sample(distribution, static_cast<std::uint64_t>(*start), entry.key, i);
+          axis.choices[i].settings.push_back({entry.key, drawn, scalar_node(drawn), entry.place});
+        }
       } catch (const Error& problem) {
         error(entry.value.place, fmt::format("'{}' {}", entry.key, problem.what()), problem.help());
       }

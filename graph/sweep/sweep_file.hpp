@@ -12,7 +12,9 @@ namespace atrium {
 
 /// `NODE.PARAM: value`, `NODE.type: TYPE`, `NODE.pipeline: FILE` or `VARIABLE: value`, as -s takes it.
 struct SweepSetting {
-  std::string target, value;
+  std::string target;
+  std::string value;  ///< as people read it
+  YamlNode node;      ///< the value itself
   Place place;
 };
 
@@ -73,6 +75,7 @@ struct SweepFile {
 ///   summary: …
 ///   set: {objects.type: object.none}  # the same in all variants
 ///   scenes: {flat: {scan: flat.ply}, office: {scan: office.ply}}
+///   scenes: {scan: scans/*.ply}       # or so: a scene for each file of a folder or pattern
 ///   seeds: [1, 2, 3]
 ///   grid: {translated.max_separation: [10 cm, 50 cm, 1 m]}
 ///   zip: {a.x: [1, 2], b.y: [3, 4]}   # side by side

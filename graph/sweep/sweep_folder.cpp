@@ -1,13 +1,10 @@
 #include "graph/sweep/sweep_folder.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
+#include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/files.hpp"
 #include "graph/api/json_text.hpp"
 #include "graph/run/run_folder.hpp"
 
@@ -52,22 +49,21 @@ SweepFolder::SweepFolder(const fs::path& folder, const SweepFile& sweep) {
   if (!fs::exists(folder / sweep_mark) && !holds_only_unfinished(folder))
     throw FolderError(folder.string() + " is not empty and is not the folder of a sweep",
                       "choose another folder with --out, or empty it");
-  lock(folder, LOCK_EX);
+  lock(folder, FolderLock::Kind::alone);
   write_file(folder / sweep_mark, sweep_json(sweep));
 }
 
-SweepFolder::SweepFolder(const fs::path& folder) { lock(folder, LOCK_SH); }
+SweepFolder::SweepFolder(const fs::path& folder) { lock(folder, FolderLock::Kind::shared); }
 
-// A file system that has no locks is no reason not to run.
-void SweepFolder::lock(const fs::path& folder, int kind) {
-  lock_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0) throw FolderError("cannot open the folder " + folder.string() + ": " + std::strerror(errno));
-  if (::flock(lock_, kind | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  ::close(lock_);
-  throw FolderError("another sweep is writing into " + folder.string(),
-                    "wait for it, or choose another folder with --out");
+void SweepFolder::lock(const fs::path& folder, FolderLock::Kind kind) {
+  try {
+    lock_.emplace(folder, kind);
+  } catch (const Error& problem) {
+    throw FolderError(problem.what(), problem.help());
+  }
+  if (!lock_->held())
+    throw FolderError(fmt::format("another sweep is writing into {} ({})", folder.string(), lock_->holder()),
+                      "wait for it, or choose another folder with --out");
 }
-
-SweepFolder::~SweepFolder() { ::close(lock_); }
 
 }  // namespace atrium

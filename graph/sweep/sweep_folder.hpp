@@ -1,6 +1,8 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 
+#include "graph/api/folder_lock.hpp"
 #include "graph/sweep/sweep_file.hpp"
 
 namespace atrium {
@@ -12,14 +14,13 @@ class SweepFolder {
   SweepFolder(const std::filesystem::path& folder, const SweepFile& sweep);
   /// For one of several processes that work on it. Throws FolderError.
   explicit SweepFolder(const std::filesystem::path& folder);
-  ~SweepFolder();
   SweepFolder(const SweepFolder&) = delete;
   SweepFolder& operator=(const SweepFolder&) = delete;
 
  private:
-  void lock(const std::filesystem::path& folder, int kind);
+  void lock(const std::filesystem::path& folder, FolderLock::Kind kind);
 
-  int lock_ = -1;
+  std::optional<FolderLock> lock_;
 };
 
 }  // namespace atrium

@@ -52,7 +52,7 @@ std::string as_text(const Table& table) {
   const auto width = widths(table);
   const auto line = [&](const auto& cell) {
     std::string text =
-        joined(table, "  ", [&](std::size_t c) { return padded(cell(c), width[c], table.columns[c].number); });
+        joined(table, "  ", [&](std::size_t c) { return padded(cell(c), width[c], table.columns[c].is_number()); });
     text.erase(text.find_last_not_of(' ') + 1);
     return text + "\n";
   };
@@ -71,7 +71,7 @@ std::string as_csv(const Table& table) {
 std::string as_markdown(const Table& table) {
   const auto line = [&](auto cell) { return "| " + joined(table, " | ", cell) + " |\n"; };
   std::string result = line([&](std::size_t c) { return markdown_cell(table.columns[c].title); });
-  result += line([&](std::size_t c) { return std::string(table.columns[c].number ? "--:" : "---"); });
+  result += line([&](std::size_t c) { return std::string(table.columns[c].is_number() ? "--:" : "---"); });
   for (const auto& row : table.rows) result += line([&](std::size_t c) { return markdown_cell(row[c]); });
   return result;
 }

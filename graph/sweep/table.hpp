@@ -7,8 +7,11 @@ namespace atrium {
 /// A table of texts.
 struct Table {
   struct Column {
-    std::string title;
-    bool number = false;  ///< aligned to the right
+    enum class Kind { text, axis, drawn, metric };  ///< drawn: what a random sample sets
+    std::string title;                              ///< with its unit: "time [s]"
+    Kind kind = Kind::text;
+    std::string name = title, unit = {};
+    bool is_number() const { return kind == Kind::metric; }  ///< aligned to the right
   };
   std::vector<Column> columns;
   std::vector<std::vector<std::string>> rows;

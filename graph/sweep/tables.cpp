@@ -5,12 +5,15 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "graph/api/suggest.hpp"
 #include "graph/sweep/result.hpp"
 
 namespace atrium {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// A cell: a number, or a text.
 struct Cell {
@@ -119,7 +122,8 @@ std::vector<Table::Column> metric_columns(const Numbers& numbers) {
   std::vector<Table::Column> columns;
   for (std::size_t m = 0; m < numbers.metrics.size(); ++m)
     columns.push_back(
-        {numbers.metrics[m].name + (numbers.units[m].empty() ? "" : fmt::format(" [{}]", numbers.units[m])), true});
+        {numbers.metrics[m].name + (numbers.units[m].empty() ? "" : fmt::format(" [{}]", numbers.units[m])),
+         Table::Column::Kind::metric, numbers.metrics[m].name, numbers.units[m]});
   return columns;
 }
 
@@ -161,8 +165,8 @@ std::vector<std::string> drawn_by(const SweepAxis& axis) {
 }
 
 void add_columns(const SweepAxis& axis, Table& table) {
-  table.columns.push_back({axis.name});
-  for (auto& target : drawn_by(axis)) table.columns.push_back({std::move(target)});
+  table.columns.push_back({axis.name, Table::Column::Kind::axis});
+  for (auto& target : drawn_by(axis)) table.columns.push_back({std::move(target), Table::Column::Kind::drawn});
 }
 
 void add_cells(const SweepAxis& axis, std::size_t choice, std::vector<std::string>& row) {
@@ -215,6 +219,13 @@ std::string group_cell(const std::vector<std::size_t>& group, std::size_t metric
   return values.empty() ? "–" : with_spread(values, numbers.metrics[metric].digits);
 }
 
+/// A metric's cell: a number; null where there is none; the text of what is no number that JSON has ("nan", a word).
+Json cell_json(const Shown& shown) {
+  if (!shown.found) return nullptr;
+  if (!shown.cell.number) return shown.cell.text;
+  return std::isfinite(*shown.cell.number) ? Json(*shown.cell.number) : Json(fmt::format("{}", *shown.cell.number));
+}
+
 }  // namespace
 
 Table full_table(const SweepFile& sweep, const SweepPlan& plan, const std::vector<VariantResult>& results,
@@ -243,6 +254,28 @@ Table full_table(const SweepFile& sweep, const SweepPlan& plan, const std::vecto
     if (done && !found) unknown->push_back(unknown_metric(numbers.metrics[m], results));
   }
   return table;
+}
+
+Json table_json(const SweepFile& sweep, const SweepPlan& plan, const std::vector<VariantResult>& results) {
+  constexpr std::array kinds{"text", "axis", "drawn", "metric"};
+  const Table table = full_table(sweep, plan, results);
+  const Numbers numbers = numbers_of(sweep, results);
+  Json columns = Json::array();
+  Json variants = Json::array();
+  for (const auto& column : table.columns) {
+    columns.push_back({{"title", column.title}, {"kind", kinds.at(static_cast<std::size_t>(column.kind))}});
+    if (column.is_number()) columns.back().update({{"name", column.name}, {"unit", column.unit}});
+  }
+  for (std::size_t v = 0; v < table.rows.size(); ++v) {
+    Json& entry = variants.emplace_back(Json::object());
+    std::size_t metric = 0;
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      const auto& column = table.columns[c];
+      entry[column.title] = column.is_number() ? cell_json(numbers.cells[v][metric++]) : Json(table.rows[v][c]);
+      if (c == 0) entry["label"] = label_of(sweep, plan.variants[v]);
+    }
+  }
+  return {{"columns", std::move(columns)}, {"variants", std::move(variants)}};
 }
 
 Table short_table(const SweepFile& sweep, const SweepPlan& plan, const std::vector<VariantResult>& results) {

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
 
+#include "graph/api/clocks.hpp"
 #include "graph/api/json_text.hpp"
-#include "graph/cache/costs.hpp"
-#include "graph/run/clocks.hpp"
+#include "graph/cache/build_ids.hpp"
 #include "graph/run/run_folder.hpp"
 #include "graph/run/scheduler.hpp"
 #include "graph/sweep/merge.hpp"
@@ -24,27 +23,27 @@ using Json = nlohmann::ordered_json;
 
 /// The nodes that are to be run: what the task names and what that reads, without what is to be skipped and what
 /// depends on it.
-std::vector<bool> wanted_nodes(const WorkerTask& task, const SweepPlan& plan, const std::vector<std::string>& skipped) {
-  const auto& nodes = plan.merged.nodes;
-  std::vector<bool> wanted(nodes.size(), false);
+std::vector<std::size_t> wanted_nodes(const WorkerTask& task, const SweepPlan& plan,
+                                      const std::vector<std::string>& skipped) {
+  const Dataflow& graph = plan.merged;
+  std::vector<bool> wanted(node_count(graph), false);
   for (std::size_t p = 0; p < task.parts.size(); ++p) {
     const auto& part = task.parts[p];
     for (const std::size_t n : plan.variants[p].nodes) {
-      const std::string address = address_in_variant(nodes[n]);
+      const std::string address = address_in_variant(graph[n]);
       if (part.nodes.empty() || std::find(part.nodes.begin(), part.nodes.end(), address) != part.nodes.end())
         wanted[n] = true;
     }
   }
-  for (std::size_t n = nodes.size(); n-- > 0;)
-    for (const auto& port : nodes[n].inputs)
-      for (const Edge& edge : port) wanted[edge.node] = wanted[edge.node] || wanted[n];
-  const std::set<std::string> without(skipped.begin(), skipped.end());
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    if (without.contains(nodes[n].path)) wanted[n] = false;
-    for (const auto& port : nodes[n].inputs)
-      for (const Edge& edge : port) wanted[n] = wanted[n] && wanted[edge.node];
-  }
-  return wanted;
+  wanted = with_sources(wanted, graph);
+  std::vector<bool> without(node_count(graph), false);
+  for (const std::size_t n : all_nodes(graph))
+    without[n] = std::find(skipped.begin(), skipped.end(), graph[n].path) != skipped.end();
+  without = with_readers(without, graph);
+  std::vector<std::size_t> nodes;
+  for (const std::size_t n : all_nodes(graph))
+    if (wanted[n] && !without[n]) nodes.push_back(n);
+  return nodes;
 }
 
 /// Pictures that show other variants than the one that runs, read before anything runs.
@@ -86,14 +85,21 @@ VariantNote read_note(const fs::path& folder) {
   }
 }
 
+fs::path folder_of_sweep_file(const fs::path& sweep) {
+  const Json json = read_json_file(sweep / sweep_mark);
+  if (!json.is_object() || !json.contains("sweep") || !json.at("sweep").is_string())
+    throw Error(sweep.string() + " is not the folder of a sweep");
+  return fs::path(json.at("sweep").get<std::string>()).parent_path();
+}
+
 Pipeline load_variant(const fs::path& sweep, const std::string& id, Registry& registry) {
   const fs::path file = sweep / "variants" / id / "resolved.yaml";
   LoadResult loaded = load_pipeline(file, {}, registry);
   if (!loaded.errors.empty()) throw Error(to_string(loaded.errors.front()));
-  if (id_of(loaded.pipeline) != id)
+  if (id_of(loaded.pipeline, folder_of_sweep_file(sweep)) != id)
     throw Error(file.string() + " is not that of the variant any more",
                 "begin the sweep again: what is done is not done again");
-  return std::move(loaded.pipeline);
+  return loaded.pipeline;
 }
 
 std::string task_text(const WorkerTask& task) {
@@ -128,43 +134,37 @@ void write_note(const fs::path& folder, const VariantNote& note) {
 }
 
 void run_worker(const WorkerTask& task, const WorkerOptions& options, Registry& registry, EventSink& events) {
-  if (registry.build() != options.build)
-    throw Error("the program or its plugins were changed since the sweep was begun",
+  if (build_of_all(registry) != options.build)
+    throw Error("the plugins, or the libraries that they use, were changed since the sweep was begun",
                 "begin it again: results of two programs do not go into one table");
   SweepPlan plan;
-  VariantMerger merger(plan);
+  VariantMerger merger(plan, folder_of_sweep_file(options.sweep));
   std::vector<VariantNote> notes;
   std::map<std::string, VariantName> names;
-  const bool whole = task.parts.front().nodes.empty();
+  const bool entire = task.parts.front().nodes.empty();
   for (const auto& part : task.parts) {
     const Pipeline pipeline = load_variant(options.sweep, part.id, registry);
-    plan.merged.summary = pipeline.summary;
+    plan.merged[whole].summary = pipeline[whole].summary;
     if (!merger.add(pipeline, {}).fresh) throw Error("the variant " + part.id + " is named twice");
-    if (!whole) continue;
+    if (!entire) continue;
     notes.push_back(read_note(options.sweep / "variants" / part.id));
     names.emplace(part.id, notes.back().name);
   }
   const Stamps stamps(notes, plan, options.sweep, registry);
-  Recorder recorder(plan, std::vector<bool>(plan.variants.size(), whole),
+  Recorder recorder(plan, std::vector<bool>(plan.variants.size(), entire),
                     {options.sweep, options.build, ~std::size_t{0},
                      [&](const SweepVariant& variant) { return names.at(variant.id); }},
                     events);
   const Pipeline pipeline = part_of(plan.merged, wanted_nodes(task, plan, options.skipped));
   RunOptions run_options = options.run;
-  run_options.out = whole ? options.sweep : options.scratch;
+  run_options.out = entire ? options.sweep : options.scratch;
   run_options.stamp = [&](const PipelineNode& node) -> const PngStamp& {
     const PngStamp* stamp = stamps.of(node);
     return stamp != nullptr ? *stamp : recorder.stamp_of_variant(node);
   };
-  Costs costs(run_options.cache == nullptr ? CachePlaces{} : run_options.cache->places());
-  if (run_options.cache != nullptr)
-    run_options.memory_of = [&](const PipelineNode& node) -> std::optional<std::uint64_t> {
-      const auto cost = costs.of(node.type->type, address_of(node));
-      return cost ? cost->memory : std::nullopt;
-    };
   const double start = wall_seconds();
   events.begin();
-  RunResult run = Scheduler(pipeline, run_options, whole ? static_cast<ProgressSink&>(recorder) : events).run();
+  RunResult run = Scheduler(pipeline, run_options, entire ? static_cast<ProgressSink&>(recorder) : events).run();
   finish_cache(run_options.cache, run);
   run.wall = wall_seconds() - start;
   run.cpu = process_cpu_seconds();

@@ -28,6 +28,9 @@ void write_note(const std::filesystem::path& folder, const VariantNote& note);
 /// Throws Error.
 VariantNote read_note(const std::filesystem::path& folder);
 
+/// The folder of the sweep file, from which the ids of variants see files. Throws Error.
+std::filesystem::path folder_of_sweep_file(const std::filesystem::path& sweep);
+
 /// A variant's pipeline from its folder. Throws Error if it is not that of the variant.
 Pipeline load_variant(const std::filesystem::path& sweep, const std::string& id, Registry& registry);
 

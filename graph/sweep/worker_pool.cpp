@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -10,10 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "graph/api/clocks.hpp"
 #include "graph/api/json_text.hpp"
 #include "graph/api/suggest.hpp"
 #include "graph/cache/upkeep.hpp"
-#include "graph/run/clocks.hpp"
 
 namespace atrium {
 namespace {
@@ -41,7 +40,7 @@ struct WorkerPool::Worker {
   WorkerProcess process;
   double start, clock;
   std::set<std::string> nodes = {};  ///< that run
-  bool whole = false, killed_for_others = false;
+  bool whole = false, killed_for_others = false, asked_to_end = false;
   std::string killed = {};                     ///< why, if we did
   std::optional<std::uint64_t> expected = {};  ///< memory; nothing: it is to be alone
   std::uint64_t memory = 0;
@@ -53,8 +52,6 @@ struct WorkerPool::Worker {
 WorkerPool::WorkerPool(PoolOptions options, OnEvent on_event, OnEnd on_end)
     : options_(options), on_event_(std::move(on_event)), on_end_(std::move(on_end)) {
   if (options_.threads <= 0) options_.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  // What a worker leaves behind when it is killed becomes a child of this process, which ends it.
-  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
 }
 
 WorkerPool::~WorkerPool() = default;
@@ -70,7 +67,7 @@ void WorkerPool::run() {
     wait();
     if (cancelled() && cancelled_at_ == 0) {
       cancelled_at_ = wall_seconds();
-      for (const auto& worker : running_) worker->process.send(SIGTERM);
+      for (const auto& worker : running_) worker->asked_to_end = worker->process.terminate();
     }
     if (options_.memory > 0) check_memory();
     for (const auto& worker : running_) check(*worker);
@@ -130,7 +127,7 @@ void WorkerPool::start(PoolTask task) {
 void WorkerPool::wait() const {
   std::vector<pollfd> files;
   for (const auto& worker : running_)
-    for (const int file : {worker->process.events(), worker->process.output()})
+    for (const int file : worker->process.files())
       if (file >= 0) files.push_back({file, POLLIN, 0});
   ::poll(files.data(), files.size(), tick_milliseconds);
 }
@@ -155,9 +152,10 @@ void WorkerPool::check(Worker& worker) {
   const double now = wall_seconds();
   if (options_.timeout > 0 && now - worker.clock > options_.timeout && worker.killed.empty()) {
     worker.killed = fmt::format("ended after {:g} s (--timeout)", options_.timeout);
-    worker.process.send(SIGKILL);
+    worker.process.end();
   }
-  if (cancelled_at_ > 0 && now - cancelled_at_ > grace) worker.process.send(SIGKILL);
+  if (cancelled_at_ > 0 && !worker.asked_to_end) worker.asked_to_end = worker.process.terminate();
+  if (cancelled_at_ > 0 && now - cancelled_at_ > grace) worker.process.end();
 }
 
 /// Ends the last worker that was started if all of them hold too much.
@@ -171,14 +169,13 @@ void WorkerPool::check_memory() {
     last.killed_for_others = true;
   else
     last.killed = fmt::format("ended when it held {} of memory (--mem)", size_text(last.memory));
-  last.process.send(SIGKILL);
+  last.process.end();
 }
 
 void WorkerPool::end(Worker& worker) {
   read(worker);  // the rest of what it said
   const int status = *worker.process.ended();
   const bool done = worker.whole && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  end_orphans(processes());
   if (worker.killed_for_others && !done && cancelled_at_ == 0) {
     worker.task.alone = true;
     waiting_.push_back(std::move(worker.task));
@@ -197,12 +194,6 @@ void WorkerPool::end(Worker& worker) {
   end.message = end.reason;
   if (!names.empty()) end.message += fmt::format(" in node {}", fmt::join(names, " or "));
   on_end_(worker.task, end);
-}
-
-std::vector<pid_t> WorkerPool::processes() const {
-  std::vector<pid_t> list;
-  for (const auto& worker : running_) list.push_back(worker->process.id());
-  return list;
 }
 
 }  // namespace atrium

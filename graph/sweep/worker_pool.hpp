@@ -68,7 +68,6 @@ class WorkerPool {
   void check(Worker& worker);
   void check_memory();
   void end(Worker& worker);
-  std::vector<pid_t> processes() const;
   bool cancelled() const;
 
   PoolOptions options_;

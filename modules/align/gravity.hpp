@@ -39,22 +39,22 @@ struct Gravity {
     double prior = 1.0;
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::planes, "planes", "Primitives and the whole cloud they lie in, in metres."),
-                 port(&In::transform, "transform", "What earlier alignments did to them: input frame to their frame.")};
-  static constexpr auto outputs =
-      std::tuple{port(&Out::planes, "planes", "The primitives and their cloud, z up."),
-                 port(&Out::transform, "transform", "From the input frame to that of `planes`.")};
+      std::tuple{port<&In::planes>("Primitives and the whole cloud they lie in, in metres."),
+                 port<&In::transform>("What earlier alignments did to them: input frame to their frame.")};
+  static constexpr auto outputs = std::tuple{port<&Out::planes>("The primitives and their cloud, z up."),
+                                             port<&Out::transform>("From the input frame to that of `planes`.")};
   static constexpr auto params = std::tuple{
-      param(
-          &Params::up, "up", unitless, unbounded,
+      param<&Params::up>(
+          unitless, unbounded,
           "What points roughly upwards in the input's frame, of any length: then only the tilt (15 degrees at most) is "
           "found. [0, 0, 0]: find out. [0, 0, 1]: z, as most scanners write; [0, 1, 0]: y, as phones, headsets and "
           "game engines do; [0, -1, 0]: a depth camera."),
-      param(&Params::habit, "habit", {{"auto", Habit::automatic}, {"z", Habit::z}, {"y", Habit::y}},
-            "What files of this kind usually have up, where the scan does not tell: z, or y. auto: as the cloud says "
-            "whose file it is (y for OBJ and glTF, else z)."),
-      param(&Params::prior, "prior", unitless, within(0.0, 10.0),
-            "Weight of what files usually are, against what the scan shows. 0: only the scan counts.")};
+      param<&Params::habit>(
+          {{"auto", Habit::automatic}, {"z", Habit::z}, {"y", Habit::y}},
+          "What files of this kind usually have up, where the scan does not tell: z, or y. auto: as the cloud says "
+          "whose file it is (y for OBJ and glTF, else z)."),
+      param<&Params::prior>(unitless, within(0.0, 10.0),
+                            "Weight of what files usually are, against what the scan shows. 0: only the scan counts.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

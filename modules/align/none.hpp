@@ -17,15 +17,13 @@ struct None {
     SharedOutput<PlanePrimitives> planes;
     Transform transform;
   };
-  struct Params {};
   static constexpr auto inputs =
-      std::tuple{port(&In::planes, "planes", "Primitives."),
-                 port(&In::transform, "transform", "What earlier alignments did to them: input frame to their frame.")};
+      std::tuple{port<&In::planes>("Primitives."),
+                 port<&In::transform>("What earlier alignments did to them: input frame to their frame.")};
   static constexpr auto outputs =
-      std::tuple{port(&Out::planes, "planes", "The same primitives."),
-                 port(&Out::transform, "transform", "The same transform, from the input frame to that of `planes`.")};
-  static constexpr auto params = std::tuple{};
-  static Out run(const In& in, const Params& params, Context& context);
+      std::tuple{port<&Out::planes>("The same primitives."),
+                 port<&Out::transform>("The same transform, from the input frame to that of `planes`.")};
+  static Out run(const In& in);
 };
 
 }  // namespace atrium::align

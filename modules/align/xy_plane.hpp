@@ -33,20 +33,20 @@ struct XyPlane {
     DirectionWeight weight = DirectionWeight::area;
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::planes, "planes", "Primitives, z up."),
-                 port(&In::transform, "transform", "What earlier alignments did to them: input frame to their frame.")};
-  static constexpr auto outputs =
-      std::tuple{port(&Out::planes, "planes", "The primitives and their cloud, walls along x and y."),
-                 port(&Out::transform, "transform", "From the input frame to that of `planes`.")};
+      std::tuple{port<&In::planes>("Primitives, z up."),
+                 port<&In::transform>("What earlier alignments did to them: input frame to their frame.")};
+  static constexpr auto outputs = std::tuple{port<&Out::planes>("The primitives and their cloud, walls along x and y."),
+                                             port<&Out::transform>("From the input frame to that of `planes`.")};
   static constexpr auto params = std::tuple{
-      param(&Params::wall_angle, "wall_angle", degrees, within(45, 90),
-            "Planes whose normal is further than this from z are walls (paper, segmentation: 85 degrees)."),
-      param(&Params::tolerance, "tolerance", degrees, within(0.1, 22.5),
-            "Walls this near to the dominant direction belong to it."),
-      param(&Params::min_share, "min_share", ratio, within(0, 1),
-            "Least share of the walls' weight that makes a direction dominant; in a round room each has about 0.1."),
-      param(
-          &Params::weight, "weight", {{"area", DirectionWeight::area}, {"points", DirectionWeight::points}},
+      param<&Params::wall_angle>(
+          degrees, within(45, 90),
+          "Planes whose normal is further than this from z are walls (paper, segmentation: 85 degrees)."),
+      param<&Params::tolerance>(degrees, within(0.1, 22.5), "Walls this near to the dominant direction belong to it."),
+      param<&Params::min_share>(
+          ratio, within(0, 1),
+          "Least share of the walls' weight that makes a direction dominant; in a round room each has about 0.1."),
+      param<&Params::weight>(
+          {{"area", DirectionWeight::area}, {"points", DirectionWeight::points}},
           "What a wall counts by: area (of the rectangle with the same second moments as its points) is independent of "
           "where the scanner stood.")};
   static Out run(const In& in, const Params& params, Context& context);

@@ -29,17 +29,17 @@ struct ZAxis {
     std::vector<double> up{0, 0, 1};
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::planes, "planes", "Primitives; `up` is roughly up."),
-                 port(&In::transform, "transform", "What earlier alignments did to them: input frame to their frame.")};
-  static constexpr auto outputs =
-      std::tuple{port(&Out::planes, "planes", "The primitives and their cloud, z up."),
-                 port(&Out::transform, "transform", "From the input frame to that of `planes`.")};
+      std::tuple{port<&In::planes>("Primitives; `up` is roughly up."),
+                 port<&In::transform>("What earlier alignments did to them: input frame to their frame.")};
+  static constexpr auto outputs = std::tuple{port<&Out::planes>("The primitives and their cloud, z up."),
+                                             port<&Out::transform>("From the input frame to that of `planes`.")};
   static constexpr auto params = std::tuple{
-      param(&Params::min_vertical, "min_vertical", unitless, within(0.0, 1.0),
-            "Least |c|, the vertical component of a plane's unit normal, for it to count as roughly horizontal (paper, "
-            "Algorithm 1: |c| ≥ 0.6, a tilt of 53 degrees at most)."),
-      param(
-          &Params::up, "up", unitless, unbounded,
+      param<&Params::min_vertical>(
+          unitless, within(0.0, 1.0),
+          "Least |c|, the vertical component of a plane's unit normal, for it to count as roughly horizontal (paper, "
+          "Algorithm 1: |c| ≥ 0.6, a tilt of 53 degrees at most)."),
+      param<&Params::up>(
+          unitless, unbounded,
           "What points roughly upwards in the input's frame, of any length above 0: [0, 0, 1] is the paper's; a depth "
           "camera's is [0, -1, 0], that of many phone apps [0, 1, 0]. c is the component along it.")};
   static Out run(const In& in, const Params& params, Context& context);

@@ -10,7 +10,7 @@
 
 #include "graph/api/error.hpp"
 #include "graph/api/helper_memory.hpp"
-#include "modules/baseline/supervised_process.hpp"
+#include "graph/api/supervised_process.hpp"
 
 namespace atrium::baseline {
 namespace {
@@ -62,7 +62,7 @@ ChildResult run_child(const ChildProcess& child, ChildLog& log, Context& context
   const std::string& name = child.arguments.at(0);
   const auto start = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  SupervisedProcess process(child.arguments, child.folder, child.mebibytes);
+  SupervisedProcess process({child.arguments, child.folder, child.mebibytes});
   while (!process.status() && !process.failure()) {
     read_on(process, 10, log);
     const bool late = !process.status() && child.seconds > 0 && elapsed() > child.seconds;

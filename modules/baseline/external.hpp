@@ -25,6 +25,7 @@ struct External {
   static constexpr std::string_view type = "baseline.external";
   static constexpr std::string_view summary = "Runs any program by its command line and takes the mesh that it writes.";
   static constexpr bool cached = false;  // the program may change
+  static constexpr bool runs_programs = true;
   struct In {
     OptionalInput<Cloud> cloud;
     OptionalInput<Mesh> mesh;
@@ -48,24 +49,23 @@ struct External {
     OutputPath log{"external.log"};
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::cloud, "cloud", "Written where the command has {cloud}."),
-                 port(&In::mesh, "mesh", "Written where the command has {mesh}."),
-                 port(&In::planes, "planes", "Written, with their cloud, where the command has {planes}.")};
-  static constexpr auto outputs = std::tuple{port(&Out::mesh, "mesh", "What the program wrote to {output}.")};
+      std::tuple{port<&In::cloud>("Written where the command has {cloud}."),
+                 port<&In::mesh>("Written where the command has {mesh}."),
+                 port<&In::planes>("Written, with their cloud, where the command has {planes}.")};
+  static constexpr auto outputs = std::tuple{port<&Out::mesh>("What the program wrote to {output}.")};
   static constexpr auto params = std::tuple{
-      param(&Params::command, "command", "Program and arguments: [polyfit, \"{planes}\", \"{output}\"]."),
-      param(&Params::cloud, "cloud", {{"ply", CloudFormat::ply}, {"xyz", CloudFormat::xyz}, {"pcd", CloudFormat::pcd}},
-            "Format of {cloud}."),
-      param(&Params::mesh, "mesh", {{"ply", MeshFormat::ply}, {"obj", MeshFormat::obj}, {"stl", MeshFormat::stl}},
-            "Format of {mesh}."),
-      param(&Params::planes, "planes", {{"vg", PlanesFormat::vg}, {"bvg", PlanesFormat::bvg}}, "Format of {planes}."),
-      param(&Params::output, "output", {{"ply", MeshFormat::ply}, {"obj", MeshFormat::obj}, {"stl", MeshFormat::stl}},
-            "Format of {output}."),
-      param(&Params::binary, "binary", "Whether files are binary where their format has both kinds."),
-      param(&Params::time_limit, "time_limit", seconds, within(0, 1e6), "Wall time; 0: any."),
-      param(&Params::memory_limit, "memory_limit", unitless, within(0, 1e9),
-            "Address space of each of its processes, MiB; 0: any."),
-      param(&Params::log, "log", "Takes what the program prints; in the run's folder."),
+      param<&Params::command>("Program and arguments: [polyfit, \"{planes}\", \"{output}\"]."),
+      param<&Params::cloud>({{"ply", CloudFormat::ply}, {"xyz", CloudFormat::xyz}, {"pcd", CloudFormat::pcd}},
+                            "Format of {cloud}."),
+      param<&Params::mesh>({{"ply", MeshFormat::ply}, {"obj", MeshFormat::obj}, {"stl", MeshFormat::stl}},
+                           "Format of {mesh}."),
+      param<&Params::planes>({{"vg", PlanesFormat::vg}, {"bvg", PlanesFormat::bvg}}, "Format of {planes}."),
+      param<&Params::output>({{"ply", MeshFormat::ply}, {"obj", MeshFormat::obj}, {"stl", MeshFormat::stl}},
+                             "Format of {output}."),
+      param<&Params::binary>("Whether files are binary where their format has both kinds."),
+      param<&Params::time_limit>(seconds, within(0, 1e6), "Wall time; 0: any."),
+      param<&Params::memory_limit>(unitless, within(0, 1e9), "Address space of each of its processes, MiB; 0: any."),
+      param<&Params::log>("Takes what the program prints; in the run's folder."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

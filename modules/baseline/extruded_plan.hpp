@@ -52,27 +52,29 @@ struct ExtrudedPlan {
     double snap_angle = 20;
     double reach = 0.15;
   };
-  static constexpr auto inputs = std::tuple{
-      port(&In::plan, "plan", "Rooms to extrude; without it they are drawn from the cloud."),
-      port(&In::cloud, "cloud", "The scan, z up, best with normals: rooms, or only heights if there is a plan.")};
-  static constexpr auto outputs = std::tuple{port(&Out::mesh, "mesh", "The rooms, in the frame of the plan or cloud."),
-                                             port(&Out::plan, "plan", "What was extruded, with its heights.")};
+  static constexpr auto inputs =
+      std::tuple{port<&In::plan>("Rooms to extrude; without it they are drawn from the cloud."),
+                 port<&In::cloud>("The scan, z up, best with normals: rooms, or only heights if there is a plan.")};
+  static constexpr auto outputs = std::tuple{port<&Out::mesh>("The rooms, in the frame of the plan or cloud."),
+                                             port<&Out::plan>("What was extruded, with its heights.")};
   static constexpr auto params = std::tuple{
-      param(&Params::height, "height", metres, within(0.1, 100), "Floor to ceiling, where nothing tells it."),
-      param(&Params::percentile, "percentile", ratio, within(0, 0.4),
-            "Floor and ceiling are looked for at this and at one minus this share of a storey's points' heights."),
-      param(&Params::pixel, "pixel", metres, within(0.005, 1), "Of the image: a little more than the points' spacing."),
-      param(&Params::closing, "closing", metres, within(0, 1),
-            "Gaps of the ceiling up to twice this are closed, as far as walls let it."),
-      param(&Params::min_coverage, "min_coverage", ratio, within(0.01, 1),
-            "A pixel is a wall's if points cover at least this share of its height above doors and wardrobes."),
-      param(&Params::min_room_area, "min_room_area", square_metres, within(0, 1e6),
-            "Smaller rooms are dropped, smaller holes (columns, cupboards) filled."),
-      param(&Params::tolerance, "tolerance", metres, within(0.001, 10),
-            "Of the simplification: corners that stand out less are given up."),
-      param(&Params::snap_angle, "snap_angle", degrees, within(0, 45),
-            "Walls within this of the main direction take it (Manhattan); 0: each keeps its own."),
-      param(&Params::reach, "reach", metres, within(0, 1), "Walls move at most this far onto the points before them."),
+      param<&Params::height>(metres, within(0.1, 100), "Floor to ceiling, where nothing tells it."),
+      param<&Params::percentile>(
+          ratio, within(0, 0.4),
+          "Floor and ceiling are looked for at this and at one minus this share of a storey's points' heights."),
+      param<&Params::pixel>(metres, within(0.005, 1), "Of the image: a little more than the points' spacing."),
+      param<&Params::closing>(metres, within(0, 1),
+                              "Gaps of the ceiling up to twice this are closed, as far as walls let it."),
+      param<&Params::min_coverage>(
+          ratio, within(0.01, 1),
+          "A pixel is a wall's if points cover at least this share of its height above doors and wardrobes."),
+      param<&Params::min_room_area>(square_metres, within(0, 1e6),
+                                    "Smaller rooms are dropped, smaller holes (columns, cupboards) filled."),
+      param<&Params::tolerance>(metres, within(0.001, 10),
+                                "Of the simplification: corners that stand out less are given up."),
+      param<&Params::snap_angle>(degrees, within(0, 45),
+                                 "Walls within this of the main direction take it (Manhattan); 0: each keeps its own."),
+      param<&Params::reach>(metres, within(0, 1), "Walls move at most this far onto the points before them."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

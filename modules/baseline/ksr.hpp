@@ -47,28 +47,27 @@ struct Ksr {
     double time_limit = 600;
     double memory_limit = 8192;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points with oriented normals.")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points with oriented normals.")};
   static constexpr auto outputs =
-      std::tuple{port(&Out::mesh, "mesh", "The closed surface, each triangle with the number of its planar polygon."),
-                 port(&Out::report, "report", "ksr.…: planes found, volumes of the partition, polygons.")};
+      std::tuple{port<&Out::mesh>("The closed surface, each triangle with the number of its planar polygon."),
+                 port<&Out::report>("ksr.…: planes found, volumes of the partition, polygons.")};
   static constexpr auto params = std::tuple{
-      param(&Params::distance, "distance", metres, within(1e-6, 10), "Largest distance of a point from its plane."),
-      param(&Params::normal_angle, "normal_angle", degrees, within(1, 89),
-            "Largest angle between a point's normal and its plane's."),
-      param(&Params::min_points, "min_points", count, within(0, 1e9), "Smallest plane. 0: one in 200 of the points."),
-      param(&Params::neighbours, "neighbours", count, within(3, 1000), "Nearest points over which a region grows."),
-      param(&Params::regularise, "regularise", "Whether planes are made parallel, orthogonal and coplanar."),
-      param(&Params::angle_tolerance, "angle_tolerance", degrees, within(0, 45), "Up to which angle they are."),
-      param(&Params::max_offset, "max_offset", metres, within(0, 10), "Parallel planes nearer than this become one."),
-      param(&Params::oriented_box, "oriented_box",
-            "Whether the partition's box follows the points' directions instead of the axes."),
-      param(&Params::crossings, "crossings", count, within(1, 100),
-            "How many others a growing polygon passes before it stops (the publication's k)."),
-      param(&Params::lambda, "lambda", ratio, within(0, 0.999),
-            "Few and small faces (towards 1) against faithfulness to the points (0); indoors 0.1 to 0.5 is of use."),
-      param(&Params::indoors, "indoors", "Whether points are on the walls around what is seen, not on an object."),
-      param(&Params::time_limit, "time_limit", seconds, within(0.01, 1e6), "Wall time of the helper."),
-      param(&Params::memory_limit, "memory_limit", count, within(64, 1e7), "Resident memory of the helper, in MiB.")};
+      param<&Params::distance>(metres, within(1e-6, 10), "Largest distance of a point from its plane."),
+      param<&Params::normal_angle>(degrees, within(1, 89), "Largest angle between a point's normal and its plane's."),
+      param<&Params::min_points>(count, within(0, 1e9), "Smallest plane. 0: one in 200 of the points."),
+      param<&Params::neighbours>(count, within(3, 1000), "Nearest points over which a region grows."),
+      param<&Params::regularise>("Whether planes are made parallel, orthogonal and coplanar."),
+      param<&Params::angle_tolerance>(degrees, within(0, 45), "Up to which angle they are."),
+      param<&Params::max_offset>(metres, within(0, 10), "Parallel planes nearer than this become one."),
+      param<&Params::oriented_box>("Whether the partition's box follows the points' directions instead of the axes."),
+      param<&Params::crossings>(count, within(1, 100),
+                                "How many others a growing polygon passes before it stops (the publication's k)."),
+      param<&Params::lambda>(
+          ratio, within(0, 0.999),
+          "Few and small faces (towards 1) against faithfulness to the points (0); indoors 0.1 to 0.5 is of use."),
+      param<&Params::indoors>("Whether points are on the walls around what is seen, not on an object."),
+      param<&Params::time_limit>(seconds, within(0.01, 1e6), "Wall time of the helper."),
+      param<&Params::memory_limit>(count, within(64, 1e7), "Resident memory of the helper, in MiB.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -48,22 +48,24 @@ struct PlaneQuadric {
     double min_area = 0.1;
     double border_weight = 0.1;
   };
-  static constexpr auto inputs = std::tuple{port(&In::mesh, "mesh", "What to simplify.")};
-  static constexpr auto outputs = std::tuple{port(&Out::mesh, "mesh", "The simplified mesh, in the same frame."),
-                                             port(&Out::planes, "planes", "How many planar regions there are.")};
+  static constexpr auto inputs = std::tuple{port<&In::mesh>("What to simplify.")};
+  static constexpr auto outputs = std::tuple{port<&Out::mesh>("The simplified mesh, in the same frame."),
+                                             port<&Out::planes>("How many planar regions there are.")};
   static constexpr auto params = std::tuple{
-      param(&Params::triangles, "triangles", count, within(0, 1e9), "At most so many are left. 0: no such target."),
-      param(&Params::ratio, "ratio", atrium::ratio, within(0, 1),
-            "At most this share of the triangles is left. 0: no such target."),
-      param(&Params::max_error, "max_error", metres, within(0, 10),
-            "Root mean square distance of a vertex to the planes that it stands for. 0: only a target ends it."),
-      param(&Params::distance, "distance", metres, within(1e-6, 10), "Of a region's vertices to its plane, at most."),
-      param(&Params::angle, "angle", degrees, within(0, 90),
-            "Of a triangle's normal (smoothed over its neighbours) to its region's, at most."),
-      param(&Params::min_area, "min_area", square_metres, within(0, 1e6), "Smaller regions are given up."),
-      param(&Params::border_weight, "border_weight", unitless, within(0, 1e6),
-            "How firmly borders hold their course where the planes beside them do not tell it: borders of the mesh, of "
-            "free triangles, and of parallel planes. 1: as much as the squared length of the edge in area."),
+      param<&Params::triangles>(count, within(0, 1e9), "At most so many are left. 0: no such target."),
+      param<&Params::ratio>(atrium::ratio, within(0, 1),
+                            "At most this share of the triangles is left. 0: no such target."),
+      param<&Params::max_error>(
+          metres, within(0, 10),
+          "Root mean square distance of a vertex to the planes that it stands for. 0: only a target ends it."),
+      param<&Params::distance>(metres, within(1e-6, 10), "Of a region's vertices to its plane, at most."),
+      param<&Params::angle>(degrees, within(0, 90),
+                            "Of a triangle's normal (smoothed over its neighbours) to its region's, at most."),
+      param<&Params::min_area>(square_metres, within(0, 1e6), "Smaller regions are given up."),
+      param<&Params::border_weight>(
+          unitless, within(0, 1e6),
+          "How firmly borders hold their course where the planes beside them do not tell it: borders of the mesh, of "
+          "free triangles, and of parallel planes. 1: as much as the squared length of the edge in area."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

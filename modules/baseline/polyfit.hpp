@@ -47,25 +47,26 @@ struct Polyfit {
     OnLimit on_limit = OnLimit::fail;
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::planes, "planes", "Planes over a cloud with normals; only their inliers count.")};
+      std::tuple{port<&In::planes>("Planes over a cloud with normals; only their inliers count.")};
   static constexpr auto outputs = std::tuple{
-      port(&Out::mesh, "mesh", "The closed surface, in the planes' frame, each triangle with its primitive."),
-      port(&Out::report, "report",
-           "polyfit.…: planes, candidate_faces, variables, constraints of the program; proven: 1 if the surface is the "
-           "best one, and gap: by what share of its value a better one could still be better.")};
+      port<&Out::mesh>("The closed surface, in the planes' frame, each triangle with its primitive."),
+      port<&Out::report>(
+          "polyfit.…: planes, candidate_faces, variables, constraints of the program; proven: 1 if the surface is the "
+          "best one, and gap: by what share of its value a better one could still be better.")};
   static constexpr auto params = std::tuple{
-      param(&Params::max_planes, "max_planes", count, within(4, 10'000),
-            "Use this many planes, the largest first, and warn about the rest."),
-      param(&Params::fitting, "fitting", ratio, within(0, 1), "Weight of the data fitting (the publication's λ_f)."),
-      param(&Params::coverage, "coverage", ratio, within(0, 1), "Weight of the point coverage (λ_c)."),
-      param(&Params::complexity, "complexity", ratio, within(0, 1), "Weight of the model complexity (λ_m)."),
-      param(&Params::time_limit, "time_limit", seconds, within(0.01, 1e6),
-            "Wall time of the helper, candidates and solver together."),
-      param(&Params::memory_limit, "memory_limit", count, within(64, 1e7), "Resident memory of the helper, in MiB."),
-      param(&Params::on_limit, "on_limit", {{"fail", OnLimit::fail}, {"best", OnLimit::best}},
-            "When the time ends before the best surface is proven: fail, or take the best one so far with a warning "
-            "(which surface that is depends on the machine; the solver looks at its clock between the steps of its "
-            "work, so this may take up to twice the limit, and fails then). Memory always fails.")};
+      param<&Params::max_planes>(count, within(4, 10'000),
+                                 "Use this many planes, the largest first, and warn about the rest."),
+      param<&Params::fitting>(ratio, within(0, 1), "Weight of the data fitting (the publication's λ_f)."),
+      param<&Params::coverage>(ratio, within(0, 1), "Weight of the point coverage (λ_c)."),
+      param<&Params::complexity>(ratio, within(0, 1), "Weight of the model complexity (λ_m)."),
+      param<&Params::time_limit>(seconds, within(0.01, 1e6),
+                                 "Wall time of the helper, candidates and solver together."),
+      param<&Params::memory_limit>(count, within(64, 1e7), "Resident memory of the helper, in MiB."),
+      param<&Params::on_limit>(
+          {{"fail", OnLimit::fail}, {"best", OnLimit::best}},
+          "When the time ends before the best surface is proven: fail, or take the best one so far with a warning "
+          "(which surface that is depends on the machine; the solver looks at its clock between the steps of its "
+          "work, so this may take up to twice the limit, and fails then). Memory always fails.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -30,14 +30,14 @@ struct Quadric {
     double ratio = 0;
     bool volume_preservation = false;
   };
-  static constexpr auto inputs = std::tuple{port(&In::mesh, "mesh", "What to simplify.")};
-  static constexpr auto outputs = std::tuple{port(&Out::mesh, "mesh", "The simplified mesh, in the same frame.")};
+  static constexpr auto inputs = std::tuple{port<&In::mesh>("What to simplify.")};
+  static constexpr auto outputs = std::tuple{port<&Out::mesh>("The simplified mesh, in the same frame.")};
   static constexpr auto params = std::tuple{
-      param(&Params::triangles, "triangles", count, within(0, 1e9), "At most so many are left. 0: no such target."),
-      param(&Params::ratio, "ratio", atrium::ratio, within(0, 1),
-            "At most this share of the triangles is left. 0: no such target."),
-      param(&Params::volume_preservation, "volume_preservation",
-            "Whether the volume under each triangle is a part of the error (Lindstrom and Turk 1998)."),
+      param<&Params::triangles>(count, within(0, 1e9), "At most so many are left. 0: no such target."),
+      param<&Params::ratio>(atrium::ratio, within(0, 1),
+                            "At most this share of the triangles is left. 0: no such target."),
+      param<&Params::volume_preservation>(
+          "Whether the volume under each triangle is a part of the error (Lindstrom and Turk 1998)."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -41,19 +41,19 @@ struct VertexClustering {
     double ratio = 0;
     Representative representative = Representative::mean;
   };
-  static constexpr auto inputs = std::tuple{port(&In::mesh, "mesh", "What to simplify.")};
+  static constexpr auto inputs = std::tuple{port<&In::mesh>("What to simplify.")};
   static constexpr auto outputs =
-      std::tuple{port(&Out::mesh, "mesh", "The simplified mesh, in the same frame."),
-                 port(&Out::cell_size, "cell_size", "Side of the cubes that was used, metres; 0 for an empty mesh.")};
+      std::tuple{port<&Out::mesh>("The simplified mesh, in the same frame."),
+                 port<&Out::cell_size>("Side of the cubes that was used, metres; 0 for an empty mesh.")};
   static constexpr auto params = std::tuple{
-      param(&Params::cell_size, "cell_size", metres, within(0, 1000),
-            "Side of the cubes, or the least one if there is a target too. 0: the target decides."),
-      param(&Params::triangles, "triangles", count, within(0, 1e9), "At most so many are left. 0: no such target."),
-      param(&Params::ratio, "ratio", atrium::ratio, within(0, 1),
-            "At most this share of the triangles is left. 0: no such target."),
-      param(&Params::representative, "representative",
-            {{"mean", Representative::mean}, {"quadric", Representative::quadric}},
-            "Where a cube's vertex stands: at the mean of its corners or at the least quadric error."),
+      param<&Params::cell_size>(metres, within(0, 1000),
+                                "Side of the cubes, or the least one if there is a target too. 0: the target decides."),
+      param<&Params::triangles>(count, within(0, 1e9), "At most so many are left. 0: no such target."),
+      param<&Params::ratio>(atrium::ratio, within(0, 1),
+                            "At most this share of the triangles is left. 0: no such target."),
+      param<&Params::representative>(
+          {{"mean", Representative::mean}, {"quadric", Representative::quadric}},
+          "Where a cube's vertex stands: at the mean of its corners or at the least quadric error."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -56,26 +56,25 @@ struct Accuracy {
     std::int64_t max_points = 200'000;
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::building, "building", "Names, classes, storeys of the faces."),
-                 port(&In::mesh, "mesh", "Its surface with openings cut out, in the cloud's frame (layout.mesh)."),
-                 port(&In::cloud, "cloud", "The scan.")};
-  static constexpr auto outputs = std::tuple{port(&Out::metrics, "metrics", "accuracy.…: metres and shares.")};
-  static constexpr auto params =
-      std::tuple{param(&Params::path, "path", "The table, in the run's folder."),
-                 param(&Params::picture, "picture", "The heat map."),
-                 param(&Params::reach, "reach", metres, within(0.001, 1), "Points further away belong to no face."),
-                 param(&Params::cell, "cell", metres, within(0.01, 10), "Edge of the heat map's squares."),
-                 param(&Params::colour_range, "colour_range", metres, within(1e-4, 1), "Distance of the scale's ends."),
-                 param(&Params::specified, "specified",
-                       {{"none", Band::none},
-                        {"LOA10", Band::loa10},
-                        {"LOA20", Band::loa20},
-                        {"LOA30", Band::loa30},
-                        {"LOA40", Band::loa40},
-                        {"LOA50", Band::loa50}},
-                       "The band that is asked for."),
-                 param(&Params::max_points, "max_points", count, within(1, 1e9),
-                       "Of a cloud with more, every n-th point is taken, so that it is at most this many.")};
+      std::tuple{port<&In::building>("Names, classes, storeys of the faces."),
+                 port<&In::mesh>("Its surface with openings cut out, in the cloud's frame (layout.mesh)."),
+                 port<&In::cloud>("The scan.")};
+  static constexpr auto outputs = std::tuple{port<&Out::metrics>("accuracy.…: metres and shares.")};
+  static constexpr auto params = std::tuple{
+      param<&Params::path>("The table, in the run's folder."),
+      param<&Params::picture>("The heat map."),
+      param<&Params::reach>(metres, within(0.001, 1), "Points further away belong to no face."),
+      param<&Params::cell>(metres, within(0.01, 10), "Edge of the heat map's squares."),
+      param<&Params::colour_range>(metres, within(1e-4, 1), "Distance of the scale's ends."),
+      param<&Params::specified>({{"none", Band::none},
+                                 {"LOA10", Band::loa10},
+                                 {"LOA20", Band::loa20},
+                                 {"LOA30", Band::loa30},
+                                 {"LOA40", Band::loa40},
+                                 {"LOA50", Band::loa50}},
+                                "The band that is asked for."),
+      param<&Params::max_points>(count, within(1, 1e9),
+                                 "Of a cloud with more, every n-th point is taken, so that it is at most this many.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

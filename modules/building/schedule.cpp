@@ -150,7 +150,7 @@ std::string walls_table(const Building& building, const Elements& elements) {
 
 }  // namespace
 
-Schedule::Out Schedule::run(const In& in, const Params& params, Context& context) {
+void Schedule::run(const In& in, const Params& params, Context& context) {
   check(*in.building);
   const Building building = upright_building(*in.building, in.transform ? *in.transform : Transform{}, true).building;
   if (building.rooms.empty()) context.warn("the building has no rooms: the schedules are empty");
@@ -175,7 +175,7 @@ Schedule::Out Schedule::run(const In& in, const Params& params, Context& context
     file.commit();
     context.wrote(target);
   }
-  return {};
+  return;
 }
 
 }  // namespace atrium::building

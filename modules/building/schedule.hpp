@@ -28,7 +28,6 @@ struct Schedule {
     Input<Building> building;
     OptionalInput<Transform> transform;
   };
-  struct Out {};
   struct Params {
     OutputPath rooms{"rooms.csv"};
     OutputPath doors{"doors.csv"};
@@ -39,21 +38,18 @@ struct Schedule {
     double max_column_width = 1.0;
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::building, "building", "What is listed."),
-                 port(&In::transform, "transform", "From the frame that is wanted to that of the building.")};
-  static constexpr auto outputs = std::tuple{};
-  static constexpr auto params =
-      std::tuple{param(&Params::rooms, "rooms", "The file of rooms, in the run's folder."),
-                 param(&Params::doors, "doors", "The file of doors and passages."),
-                 param(&Params::windows, "windows", "The file of windows."),
-                 param(&Params::walls, "walls", "The file of walls."),
-                 param(&Params::assumed_thickness, "assumed_thickness", metres, within(0.01, 2),
-                       "Thickness of walls of which one face only is known."),
-                 param(&Params::max_thickness, "max_thickness", metres, within(0.01, 5),
-                       "Greatest thickness of a wall between two faces."),
-                 param(&Params::max_column_width, "max_column_width", metres, within(0, 10),
-                       "Holes in a room's plan that are no wider, both ways, are columns.")};
-  static Out run(const In& in, const Params& params, Context& context);
+      std::tuple{port<&In::building>("What is listed."),
+                 port<&In::transform>("From the frame that is wanted to that of the building.")};
+  static constexpr auto params = std::tuple{
+      param<&Params::rooms>("The file of rooms, in the run's folder."),
+      param<&Params::doors>("The file of doors and passages."),
+      param<&Params::windows>("The file of windows."),
+      param<&Params::walls>("The file of walls."),
+      param<&Params::assumed_thickness>(metres, within(0.01, 2), "Thickness of walls of which one face only is known."),
+      param<&Params::max_thickness>(metres, within(0.01, 5), "Greatest thickness of a wall between two faces."),
+      param<&Params::max_column_width>(metres, within(0, 10),
+                                       "Holes in a room's plan that are no wider, both ways, are columns.")};
+  static void run(const In& in, const Params& params, Context& context);
 };
 
 }  // namespace atrium::building

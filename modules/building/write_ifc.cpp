@@ -38,7 +38,7 @@ void check_furniture(const Mesh& mesh) {
 
 }  // namespace
 
-WriteIfc::Out WriteIfc::run(const In& in, const Params& params, Context& context) {
+void WriteIfc::run(const In& in, const Params& params, Context& context) {
   check(*in.building);
   const std::string crs = crs_of(in, params, context);
   const UprightBuilding upright =
@@ -64,7 +64,7 @@ WriteIfc::Out WriteIfc::run(const In& in, const Params& params, Context& context
   file.write(text);
   file.commit();
   context.wrote(target);
-  return {};
+  return;
 }
 
 }  // namespace atrium::building

@@ -62,7 +62,6 @@ struct WriteIfc {
     OptionalInput<Cloud> scan;
     OptionalInput<Mesh> furniture;
   };
-  struct Out {};
   struct Params {
     OutputPath path{"building.ifc"};
     std::string project = "Atrium";
@@ -76,29 +75,25 @@ struct WriteIfc {
     bool boundaries = true;
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::building, "building", "What is written."),
-                 port(&In::transform, "transform", "From the frame that is wanted to that of the building."),
-                 port(&In::scan, "scan", "The scan that it was made from: its coordinate reference system."),
-                 port(&In::furniture, "furniture", "A mesh in the frame that is wanted; its parts become proxies.")};
-  static constexpr auto outputs = std::tuple{};
+      std::tuple{port<&In::building>("What is written."),
+                 port<&In::transform>("From the frame that is wanted to that of the building."),
+                 port<&In::scan>("The scan that it was made from: its coordinate reference system."),
+                 port<&In::furniture>("A mesh in the frame that is wanted; its parts become proxies.")};
   static constexpr auto params = std::tuple{
-      param(&Params::path, "path", "The file, in the run's folder."),
-      param(&Params::project, "project", "The project's name."),
-      param(&Params::crs, "crs",
-            "Coordinate reference system of the input: EPSG:25832; empty: that of `scan`, or local."),
-      param(&Params::id_space, "id_space", "What GlobalIds are derived from; empty: the building's corners."),
-      param(&Params::assumed_thickness, "assumed_thickness", metres, within(0.01, 2),
-            "Thickness of walls of which one face only is known."),
-      param(&Params::assumed_slab_thickness, "assumed_slab_thickness", metres, within(0.01, 2),
-            "Thickness of floors, ceilings and roofs of which one face only is known."),
-      param(&Params::max_thickness, "max_thickness", metres, within(0.01, 5),
-            "Greatest thickness of a wall between two faces."),
-      param(&Params::max_slab_thickness, "max_slab_thickness", metres, within(0.02, 5),
-            "Greatest thickness of a slab between a ceiling and the floor over it."),
-      param(&Params::max_column_width, "max_column_width", metres, within(0, 10),
-            "Holes in a room's plan that are no wider, both ways, are columns."),
-      param(&Params::boundaries, "boundaries", "Write space boundaries.")};
-  static Out run(const In& in, const Params& params, Context& context);
+      param<&Params::path>("The file, in the run's folder."),
+      param<&Params::project>("The project's name."),
+      param<&Params::crs>("Coordinate reference system of the input: EPSG:25832; empty: that of `scan`, or local."),
+      param<&Params::id_space>("What GlobalIds are derived from; empty: the building's corners."),
+      param<&Params::assumed_thickness>(metres, within(0.01, 2), "Thickness of walls of which one face only is known."),
+      param<&Params::assumed_slab_thickness>(
+          metres, within(0.01, 2), "Thickness of floors, ceilings and roofs of which one face only is known."),
+      param<&Params::max_thickness>(metres, within(0.01, 5), "Greatest thickness of a wall between two faces."),
+      param<&Params::max_slab_thickness>(metres, within(0.02, 5),
+                                         "Greatest thickness of a slab between a ceiling and the floor over it."),
+      param<&Params::max_column_width>(metres, within(0, 10),
+                                       "Holes in a room's plan that are no wider, both ways, are columns."),
+      param<&Params::boundaries>("Write space boundaries.")};
+  static void run(const In& in, const Params& params, Context& context);
 };
 
 }  // namespace atrium::building

@@ -19,11 +19,11 @@ struct Adjacency {
   struct Params {
     double max_separation = 0.5;
   };
-  static constexpr auto inputs = std::tuple{port(&In::meshes, "meshes", "Convex planar polygons.")};
+  static constexpr auto inputs = std::tuple{port<&In::meshes>("Convex planar polygons.")};
   static constexpr auto outputs =
-      std::tuple{port(&Out::adjacency, "adjacency", "Vertex i is mesh i; an edge carries the separation in metres.")};
-  static constexpr auto params = std::tuple{param(
-      &Params::max_separation, "max_separation", metres, within(0, 10),
+      std::tuple{port<&Out::adjacency>("Vertex i is mesh i; an edge carries the separation in metres.")};
+  static constexpr auto params = std::tuple{param<&Params::max_separation>(
+      metres, within(0, 10),
       "Meshes less than this apart are neighbours (the paper's th_sep, 0.5 m; its appendix tries 0.1 to 0.5 m).")};
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -30,16 +30,17 @@ struct PlaneMeshes {
     double axis_tolerance = 0.5;
     double trim = 0;
   };
-  static constexpr auto inputs = std::tuple{port(&In::structure, "structure", "Walls, floors and ceilings; z up.")};
-  static constexpr auto outputs = std::tuple{port(&Out::meshes, "meshes", "One rectangle each, in the same frame.")};
-  static constexpr auto params =
-      std::tuple{param(&Params::axis_tolerance, "axis_tolerance", degrees, within(0, 10),
-                       "A normal this near to a coordinate axis is along it (paper: axis-aligned mesh, else oriented "
-                       "mesh). Turning a "
-                       "wall of length L about its middle by half a degree moves its ends by less than L/200."),
-                 param(&Params::trim, "trim", ratio, within(0, 0.2),
-                       "Share of the points that may stand out at each side of the rectangle; the paper's bounding "
-                       "rectangle is 0.")};
+  static constexpr auto inputs = std::tuple{port<&In::structure>("Walls, floors and ceilings; z up.")};
+  static constexpr auto outputs = std::tuple{port<&Out::meshes>("One rectangle each, in the same frame.")};
+  static constexpr auto params = std::tuple{
+      param<&Params::axis_tolerance>(
+          degrees, within(0, 10),
+          "A normal this near to a coordinate axis is along it (paper: axis-aligned mesh, else oriented "
+          "mesh). Turning a "
+          "wall of length L about its middle by half a degree moves its ends by less than L/200."),
+      param<&Params::trim>(ratio, within(0, 0.2),
+                           "Share of the points that may stand out at each side of the rectangle; the paper's bounding "
+                           "rectangle is 0.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -25,12 +25,12 @@ struct Crop {
     std::vector<double> max{1e9, 1e9, 1e9};
     Keep keep = Keep::inside;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points with any columns.")};
-  static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "The points that were kept.")};
-  static constexpr auto params = std::tuple{
-      param(&Params::min, "min", metres, within(-1e9, 1e9), "Lowest x, y and z of the box."),
-      param(&Params::max, "max", metres, within(-1e9, 1e9), "Highest x, y and z of the box."),
-      param(&Params::keep, "keep", {{"inside", Keep::inside}, {"outside", Keep::outside}}, "Which points stay.")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points with any columns.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cloud>("The points that were kept.")};
+  static constexpr auto params =
+      std::tuple{param<&Params::min>(metres, within(-1e9, 1e9), "Lowest x, y and z of the box."),
+                 param<&Params::max>(metres, within(-1e9, 1e9), "Highest x, y and z of the box."),
+                 param<&Params::keep>({{"inside", Keep::inside}, {"outside", Keep::outside}}, "Which points stay.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -2,6 +2,6 @@
 
 namespace atrium::filter {
 
-None::Out None::run(const In& in, const Params& /*params*/, Context& /*context*/) { return {in.cloud}; }
+None::Out None::run(const In& in) { return {in.cloud}; }
 
 }  // namespace atrium::filter

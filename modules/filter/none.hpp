@@ -14,11 +14,9 @@ struct None {
   struct Out {
     SharedOutput<Cloud> cloud;
   };
-  struct Params {};
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points.")};
-  static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "The same points.")};
-  static constexpr auto params = std::tuple{};
-  static Out run(const In& in, const Params& params, Context& context);
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cloud>("The same points.")};
+  static Out run(const In& in);
 };
 
 }  // namespace atrium::filter

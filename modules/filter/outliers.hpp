@@ -29,14 +29,15 @@ struct Outliers {
     std::int64_t neighbours = 16;
     double deviations = 3;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points with any columns.")};
-  static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "The points that are no outliers."),
-                                             port(&Out::removed, "removed", "How many points were removed.")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points with any columns.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cloud>("The points that are no outliers."),
+                                             port<&Out::removed>("How many points were removed.")};
   static constexpr auto params = std::tuple{
-      param(&Params::neighbours, "neighbours", count, within(1, 1000), "Nearest points whose mean distance is taken."),
-      param(&Params::deviations, "deviations", unitless, within(0.1, 100),
-            "Standard deviations above the mean that are still normal. A LiDAR's density falls with distance: below 2, "
-            "far walls begin to go.")};
+      param<&Params::neighbours>(count, within(1, 1000), "Nearest points whose mean distance is taken."),
+      param<&Params::deviations>(
+          unitless, within(0.1, 100),
+          "Standard deviations above the mean that are still normal. A LiDAR's density falls with distance: below 2, "
+          "far walls begin to go.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

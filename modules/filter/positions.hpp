@@ -30,15 +30,17 @@ struct Positions {
     double min_free = 0.5;
     double min_visible = 0.7;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points with any columns.")};
-  static constexpr auto outputs = std::tuple{
-      port(&Out::cloud, "cloud", "The same points; the positions that are believed, with or without `source`.")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points with any columns.")};
+  static constexpr auto outputs =
+      std::tuple{port<&Out::cloud>("The same points; the positions that are believed, with or without `source`.")};
   static constexpr auto params = std::tuple{
-      param(&Params::min_free, "min_free", unitless, within(0, 1),
-            "Share of free ways between points and their own positions from which on these are believed."),
-      param(&Params::min_visible, "min_visible", unitless, within(0, 1),
-            "Share of directions from which on a cloud is taken for that of one position; above 1 is never reached, so "
-            "1 all but switches this off.")};
+      param<&Params::min_free>(
+          unitless, within(0, 1),
+          "Share of free ways between points and their own positions from which on these are believed."),
+      param<&Params::min_visible>(
+          unitless, within(0, 1),
+          "Share of directions from which on a cloud is taken for that of one position; above 1 is never reached, so "
+          "1 all but switches this off.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

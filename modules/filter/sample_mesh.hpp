@@ -23,10 +23,10 @@ struct SampleMesh {
   struct Params {
     std::int64_t count = 0;
   };
-  static constexpr auto inputs = std::tuple{port(&In::mesh, "mesh", "Triangles, with colours or without.")};
-  static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "Points with normals, in the mesh's frame.")};
-  static constexpr auto params = std::tuple{param(&Params::count, "count", atrium::count, within(0, 1e8),
-                                                  "Number of points; 0: as many as the mesh has vertices.")};
+  static constexpr auto inputs = std::tuple{port<&In::mesh>("Triangles, with colours or without.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cloud>("Points with normals, in the mesh's frame.")};
+  static constexpr auto params = std::tuple{
+      param<&Params::count>(atrium::count, within(0, 1e8), "Number of points; 0: as many as the mesh has vertices.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -26,12 +26,12 @@ struct VoxelGrid {
   struct Params {
     double size = 0.02;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points with any columns.")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points with any columns.")};
   static constexpr auto outputs =
-      std::tuple{port(&Out::cloud, "cloud", "One point per voxel that holds any, same columns, frame and origin.")};
-  static constexpr auto params = std::tuple{
-      param(&Params::size, "size", metres, within(0.001, 100),
-            "Edge of a voxel. 2 cm keeps what a room's structure needs; above 5 cm, walls 12 cm apart begin to blur.")};
+      std::tuple{port<&Out::cloud>("One point per voxel that holds any, same columns, frame and origin.")};
+  static constexpr auto params = std::tuple{param<&Params::size>(
+      metres, within(0.001, 100),
+      "Edge of a voxel. 2 cm keeps what a room's structure needs; above 5 cm, walls 12 cm apart begin to blur.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -42,18 +42,17 @@ struct FromBuilding {
     double corner_gap = 0.30;
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::building, "building", "Closed rooms, with their openings if these are to be drawn."),
-                 port(&In::transform, "transform", "From the frame that is wanted to that of the building.")};
-  static constexpr auto outputs = std::tuple{port(&Out::plan, "plan", "One plan per storey.")};
+      std::tuple{port<&In::building>("Closed rooms, with their openings if these are to be drawn."),
+                 port<&In::transform>("From the frame that is wanted to that of the building.")};
+  static constexpr auto outputs = std::tuple{port<&Out::plan>("One plan per storey.")};
   static constexpr auto params =
-      std::tuple{param(&Params::cut_height, "cut_height", metres, within(0, 100),
-                       "Height of the section over the storey's floor."),
-                 param(&Params::min_thickness, "min_thickness", metres, within(0.001, 5),
-                       "Least thickness of a wall: nearer faces do not belong together."),
-                 param(&Params::max_thickness, "max_thickness", metres, within(0.001, 5),
-                       "Greatest thickness of a wall: what is further apart is drawn as two."),
-                 param(&Params::corner_gap, "corner_gap", metres, within(0, 5),
-                       "Ends of walls that miss another wall by at most this are joined to it.")};
+      std::tuple{param<&Params::cut_height>(metres, within(0, 100), "Height of the section over the storey's floor."),
+                 param<&Params::min_thickness>(metres, within(0.001, 5),
+                                               "Least thickness of a wall: nearer faces do not belong together."),
+                 param<&Params::max_thickness>(metres, within(0.001, 5),
+                                               "Greatest thickness of a wall: what is further apart is drawn as two."),
+                 param<&Params::corner_gap>(metres, within(0, 5),
+                                            "Ends of walls that miss another wall by at most this are joined to it.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

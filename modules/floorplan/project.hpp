@@ -61,36 +61,33 @@ struct Project {
     double upright_tolerance = 1;
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::mesh, "mesh", "Walls, floors and ceilings; triangles counter-clockwise seen from the room."),
-                 port(&In::transform, "transform", "From the mesh's frame to one with z up; only its up is used.")};
-  static constexpr auto outputs =
-      std::tuple{port(&Out::plan, "plan", "One plan per storey, in the frame of the mesh.")};
+      std::tuple{port<&In::mesh>("Walls, floors and ceilings; triangles counter-clockwise seen from the room."),
+                 port<&In::transform>("From the mesh's frame to one with z up; only its up is used.")};
+  static constexpr auto outputs = std::tuple{port<&Out::plan>("One plan per storey, in the frame of the mesh.")};
   static constexpr auto params = std::tuple{
-      param(&Params::cut_height, "cut_height", metres, within(0, 100),
-            "Height of the section over the storey's floor."),
-      param(&Params::min_thickness, "min_thickness", metres, within(0.001, 5),
-            "Least thickness of a wall: nearer faces do not belong together."),
-      param(&Params::max_thickness, "max_thickness", metres, within(0.001, 5),
-            "Greatest thickness of a wall: what is further apart is a room."),
-      param(&Params::parallel_angle, "parallel_angle", degrees, within(0, 45),
-            "Faces of one wall are parallel to within this."),
-      param(&Params::corner_gap, "corner_gap", metres, within(0, 5),
-            "Ends of walls that miss another wall by at most this are joined to it."),
-      param(&Params::merge_distance, "merge_distance", metres, within(0, 1),
-            "Faces that look the same way and lie within this of each other are drawn once."),
-      param(&Params::min_wall_length, "min_wall_length", metres, within(0, 100), "Shorter pieces are left out."),
-      param(&Params::max_opening, "max_opening", metres, within(0, 100),
-            "Openings of a wall's face up to this width divide rooms: doors, not wide passages."),
-      param(&Params::room_extent, "room_extent",
-            {{"floors", RoomExtent::floors}, {"floors_and_ceilings", RoomExtent::floors_and_ceilings}},
-            "What rooms are made of: the floors alone, or what floor or ceiling covers."),
-      param(&Params::floor_gap, "floor_gap", metres, within(0, 5),
-            "Floors that end short of a wall, or have a gap, by at most this are closed for the rooms."),
-      param(&Params::min_room_width, "min_room_width", metres, within(0, 100),
-            "What is narrower is no room and joins none: slivers between walls."),
-      param(&Params::min_room_area, "min_room_area", square_metres, within(0, 1e6), "What is smaller is no room."),
-      param(&Params::upright_tolerance, "upright_tolerance", degrees, within(0, 90),
-            "A mesh whose up is within this of z is not turned."),
+      param<&Params::cut_height>(metres, within(0, 100), "Height of the section over the storey's floor."),
+      param<&Params::min_thickness>(metres, within(0.001, 5),
+                                    "Least thickness of a wall: nearer faces do not belong together."),
+      param<&Params::max_thickness>(metres, within(0.001, 5),
+                                    "Greatest thickness of a wall: what is further apart is a room."),
+      param<&Params::parallel_angle>(degrees, within(0, 45), "Faces of one wall are parallel to within this."),
+      param<&Params::corner_gap>(metres, within(0, 5),
+                                 "Ends of walls that miss another wall by at most this are joined to it."),
+      param<&Params::merge_distance>(metres, within(0, 1),
+                                     "Faces that look the same way and lie within this of each other are drawn once."),
+      param<&Params::min_wall_length>(metres, within(0, 100), "Shorter pieces are left out."),
+      param<&Params::max_opening>(metres, within(0, 100),
+                                  "Openings of a wall's face up to this width divide rooms: doors, not wide passages."),
+      param<&Params::room_extent>(
+          {{"floors", RoomExtent::floors}, {"floors_and_ceilings", RoomExtent::floors_and_ceilings}},
+          "What rooms are made of: the floors alone, or what floor or ceiling covers."),
+      param<&Params::floor_gap>(
+          metres, within(0, 5),
+          "Floors that end short of a wall, or have a gap, by at most this are closed for the rooms."),
+      param<&Params::min_room_width>(metres, within(0, 100),
+                                     "What is narrower is no room and joins none: slivers between walls."),
+      param<&Params::min_room_area>(square_metres, within(0, 1e6), "What is smaller is no room."),
+      param<&Params::upright_tolerance>(degrees, within(0, 90), "A mesh whose up is within this of z is not turned."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -140,7 +140,7 @@ std::vector<DxfLayer> named(const std::string& suffix) {
 
 }  // namespace
 
-WriteDxf::Out WriteDxf::run(const In& in, const Params& params, Context& context) {
+void WriteDxf::run(const In& in, const Params& params, Context& context) {
   const FloorPlan& plan = *in.plan;
   const auto suffix_of = [&](const PlanStorey& storey) {
     return plan.storeys.size() > 1 ? fmt::format("-S{}", storey.index) : std::string();
@@ -181,7 +181,7 @@ WriteDxf::Out WriteDxf::run(const In& in, const Params& params, Context& context
   file.write(std::move(drawing).finish());
   file.commit();
   context.wrote(path);
-  return {};
+  return;
 }
 
 }  // namespace atrium::floorplan

@@ -34,23 +34,21 @@ struct WriteDxf {
   struct In {
     Input<FloorPlan> plan;
   };
-  struct Out {};
   struct Params {
     OutputPath path{"floorplan.dxf"};
     std::int32_t storey = -1;
     std::int32_t scale = 100;
     bool dimensions = true;
   };
-  static constexpr auto inputs = std::tuple{port(&In::plan, "plan", "What to write.")};
-  static constexpr auto outputs = std::tuple{};
+  static constexpr auto inputs = std::tuple{port<&In::plan>("What to write.")};
   static constexpr auto params = std::tuple{
-      param(&Params::path, "path", "The file, in the run's folder."),
-      param(&Params::storey, "storey", count, within(-1, 10000), "The storey to write, 0 the lowest; -1: all of them."),
-      param(&Params::scale, "scale", unitless, within(1, 100000),
-            "The scale at which it will be plotted, 100 for 1:100: sizes texts and dimensions only."),
-      param(&Params::dimensions, "dimensions", "Write the chains of dimensions."),
+      param<&Params::path>("The file, in the run's folder."),
+      param<&Params::storey>(count, within(-1, 10000), "The storey to write, 0 the lowest; -1: all of them."),
+      param<&Params::scale>(unitless, within(1, 100000),
+                            "The scale at which it will be plotted, 100 for 1:100: sizes texts and dimensions only."),
+      param<&Params::dimensions>("Write the chains of dimensions."),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static void run(const In& in, const Params& params, Context& context);
 };
 
 }  // namespace atrium::floorplan

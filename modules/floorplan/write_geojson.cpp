@@ -102,7 +102,7 @@ void add_storey(Features& features, const PlanStorey& storey, double origin_z) {
 
 }  // namespace
 
-WriteGeojson::Out WriteGeojson::run(const In& in, const Params& params, Context& context) {
+void WriteGeojson::run(const In& in, const Params& params, Context& context) {
   Features features(*in.plan);
   for (const auto& storey : in.plan->storeys) add_storey(features, storey, origin_height(*in.plan));
   if (in.plan->storeys.empty()) context.warn("the plan is empty: " + params.path.path + " has no features");
@@ -116,7 +116,7 @@ WriteGeojson::Out WriteGeojson::run(const In& in, const Params& params, Context&
   file.write(root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   file.commit();
   context.wrote(path);
-  return {};
+  return;
 }
 
 }  // namespace atrium::floorplan

@@ -26,18 +26,16 @@ struct WriteGeojson {
   struct In {
     Input<FloorPlan> plan;
   };
-  struct Out {};
   struct Params {
     OutputPath path{"floorplan.geojson"};
     std::string crs;
   };
-  static constexpr auto inputs = std::tuple{port(&In::plan, "plan", "What to write.")};
-  static constexpr auto outputs = std::tuple{};
+  static constexpr auto inputs = std::tuple{port<&In::plan>("What to write.")};
   static constexpr auto params = std::tuple{
-      param(&Params::path, "path", "The file, in the run's folder."),
-      param(&Params::crs, "crs",
-            "The coordinate reference system of the input, as a URN: urn:ogc:def:crs:EPSG::25832; empty: local.")};
-  static Out run(const In& in, const Params& params, Context& context);
+      param<&Params::path>("The file, in the run's folder."),
+      param<&Params::crs>(
+          "The coordinate reference system of the input, as a URN: urn:ogc:def:crs:EPSG::25832; empty: local.")};
+  static void run(const In& in, const Params& params, Context& context);
 };
 
 }  // namespace atrium::floorplan

@@ -27,7 +27,7 @@ std::string note_of(const FloorPlan& plan, double turn) {
 
 }  // namespace
 
-WriteSvg::Out WriteSvg::run(const In& in, const Params& params, Context& context) {
+void WriteSvg::run(const In& in, const Params& params, Context& context) {
   const FloorPlan& plan = *in.plan;
   const double turn = params.axes == Axes::walls ? wall_turn(plan) : 0;
   std::vector<PlanStorey> storeys;
@@ -55,7 +55,7 @@ WriteSvg::Out WriteSvg::run(const In& in, const Params& params, Context& context
   file.write(std::move(canvas).finish());
   file.commit();
   context.wrote(path);
-  return {};
+  return;
 }
 
 }  // namespace atrium::floorplan

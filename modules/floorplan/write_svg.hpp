@@ -31,7 +31,6 @@ struct WriteSvg {
   struct In {
     Input<FloorPlan> plan;
   };
-  struct Out {};
   struct Params {
     OutputPath path{"floorplan.svg"};
     std::string title = "Floor plan";
@@ -41,26 +40,24 @@ struct WriteSvg {
     Axes axes = Axes::walls;
     bool dimensions = true;
   };
-  static constexpr auto inputs = std::tuple{port(&In::plan, "plan", "What to draw.")};
-  static constexpr auto outputs = std::tuple{};
+  static constexpr auto inputs = std::tuple{port<&In::plan>("What to draw.")};
   static constexpr auto params = std::tuple{
-      param(&Params::path, "path", "The file, in the run's folder."),
-      param(&Params::title, "title", "What stands in the title block."),
-      param(&Params::storey, "storey", count, within(-1, 10000), "The storey to draw, 0 the lowest; -1: all of them."),
-      param(&Params::paper, "paper",
-            {{"auto", Paper::automatic},
-             {"A4", Paper::a4},
-             {"A3", Paper::a3},
-             {"A2", Paper::a2},
-             {"A1", Paper::a1},
-             {"A0", Paper::a0}},
-            "The sheet, upright or lying; auto: A4 or A3, larger if it must be."),
-      param(&Params::scale, "scale", unitless, within(0, 100000), "50 means 1:50; 0: the greatest that fits."),
-      param(&Params::axes, "axes", {{"walls", Axes::walls}, {"input", Axes::input}},
-            "What is parallel to the sheet: the walls, or the input's x and y."),
-      param(&Params::dimensions, "dimensions", "Draw the chains of dimensions."),
+      param<&Params::path>("The file, in the run's folder."),
+      param<&Params::title>("What stands in the title block."),
+      param<&Params::storey>(count, within(-1, 10000), "The storey to draw, 0 the lowest; -1: all of them."),
+      param<&Params::paper>({{"auto", Paper::automatic},
+                             {"A4", Paper::a4},
+                             {"A3", Paper::a3},
+                             {"A2", Paper::a2},
+                             {"A1", Paper::a1},
+                             {"A0", Paper::a0}},
+                            "The sheet, upright or lying; auto: A4 or A3, larger if it must be."),
+      param<&Params::scale>(unitless, within(0, 100000), "50 means 1:50; 0: the greatest that fits."),
+      param<&Params::axes>({{"walls", Axes::walls}, {"input", Axes::input}},
+                           "What is parallel to the sheet: the walls, or the input's x and y."),
+      param<&Params::dimensions>("Draw the chains of dimensions."),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static void run(const In& in, const Params& params, Context& context);
 };
 
 }  // namespace atrium::floorplan

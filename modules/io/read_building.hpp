@@ -24,10 +24,9 @@ struct ReadBuilding {
     InputPath path;
   };
   static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs =
-      std::tuple{port(&Out::building, "building", "Closed rooms, z up."),
-                 port(&Out::transform, "transform", "From the file's frame to that of the building.")};
-  static constexpr auto params = std::tuple{param(&Params::path, "path", "The JSON file.")};
+  static constexpr auto outputs = std::tuple{port<&Out::building>("Closed rooms, z up."),
+                                             port<&Out::transform>("From the file's frame to that of the building.")};
+  static constexpr auto params = std::tuple{param<&Params::path>("The JSON file.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -37,10 +37,10 @@ struct ReadLayout {
     InputPath path;
   };
   static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::truth, "truth", "Faces, rooms and openings."),
-                                             port(&Out::plan, "plan", "The rooms, seen from above."),
-                                             port(&Out::mesh, "mesh", "The faces as triangles.")};
-  static constexpr auto params = std::tuple{param(&Params::path, "path", "The JSON file.")};
+  static constexpr auto outputs =
+      std::tuple{port<&Out::truth>("Faces, rooms and openings."), port<&Out::plan>("The rooms, seen from above."),
+                 port<&Out::mesh>("The faces as triangles.")};
+  static constexpr auto params = std::tuple{param<&Params::path>("The JSON file.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

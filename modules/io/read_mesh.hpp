@@ -22,11 +22,11 @@ struct ReadMesh {
     double scale = 1.0;
   };
   static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::mesh, "mesh", "The mesh, in the file's frame, in metres.")};
-  static constexpr auto params =
-      std::tuple{param(&Params::path, "path", "The file: .ply, .obj, .stl."),
-                 param(&Params::scale, "scale", unitless, within(1e-9, 1e9),
-                       "Factor from the file's unit to metres: 0.001 for millimetres, 0.3048 for feet.")};
+  static constexpr auto outputs = std::tuple{port<&Out::mesh>("The mesh, in the file's frame, in metres.")};
+  static constexpr auto params = std::tuple{
+      param<&Params::path>("The file: .ply, .obj, .stl."),
+      param<&Params::scale>(unitless, within(1e-9, 1e9),
+                            "Factor from the file's unit to metres: 0.001 for millimetres, 0.3048 for feet.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

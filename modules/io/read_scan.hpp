@@ -56,40 +56,40 @@ struct ReadScan {
     double voxel = 0;
   };
   static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "The points, in the file's frame, in metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cloud>("The points, in the file's frame, in metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::path, "path",
-            "The file: .e57, .las, .laz, .ptx, .ply, .pcd, .obj, .stl, or text: .xyz, .txt, .pts, .csv, .asc, .xyzn, "
-            ".xyzrgb."),
-      param(&Params::unit, "unit",
-            {{"auto", Unit::automatic},
-             {"m", Unit::metre},
-             {"cm", Unit::centimetre},
-             {"mm", Unit::millimetre},
-             {"in", Unit::inch},
-             {"ft", Unit::foot}},
-            "Unit of the file's coordinates. auto: the one that makes rooms of the scan; only where `scale` is 1."),
-      param(&Params::scale, "scale", unitless, within(1e-9, 1e9),
-            "A factor besides: from any other unit to the one of `unit`."),
-      param(
-          &Params::mesh, "mesh", {{"sample", MeshUse::sample}, {"vertices", MeshUse::vertices}},
+      param<&Params::path>(
+          "The file: .e57, .las, .laz, .ptx, .ply, .pcd, .obj, .stl, or text: .xyz, .txt, .pts, .csv, .asc, .xyzn, "
+          ".xyzrgb."),
+      param<&Params::unit>(
+          {{"auto", Unit::automatic},
+           {"m", Unit::metre},
+           {"cm", Unit::centimetre},
+           {"mm", Unit::millimetre},
+           {"in", Unit::inch},
+           {"ft", Unit::foot}},
+          "Unit of the file's coordinates. auto: the one that makes rooms of the scan; only where `scale` is 1."),
+      param<&Params::scale>(unitless, within(1e-9, 1e9), "A factor besides: from any other unit to the one of `unit`."),
+      param<&Params::mesh>(
+          {{"sample", MeshUse::sample}, {"vertices", MeshUse::vertices}},
           "What a file with faces gives: Poisson-disk samples of its surface (paper, \"Data set preparation\"), or its "
           "vertices as they are."),
-      param(&Params::samples, "samples", count, within(0, 4e9), "Number of samples of a mesh; 0: as `spacing` says."),
-      param(&Params::spacing, "spacing", metres, within(0, 10),
-            "Where `samples` is 0: a mesh gets one sample for each square this wide on its surface. 0: as many samples "
-            "as "
-            "it has vertices (the paper)."),
-      param(
-          &Params::sensor, "sensor",
+      param<&Params::samples>(count, within(0, 4e9), "Number of samples of a mesh; 0: as `spacing` says."),
+      param<&Params::spacing>(
+          metres, within(0, 10),
+          "Where `samples` is 0: a mesh gets one sample for each square this wide on its surface. 0: as many samples "
+          "as "
+          "it has vertices (the paper)."),
+      param<&Params::sensor>(
           {{"auto", SensorUse::automatic}, {"origin", SensorUse::origin}, {"none", SensorUse::none}},
           "Where the scanner stood. auto: where the file says (poses of E57 and PTX, VIEWPOINT of PCD, camera of PLY; "
           "several places as io.write_cloud writes them to PLY), if that is not the all-zero default, which exported "
           "clouds have too; the file's origin if the points are one depth image (PCD with a height above 1). origin: "
           "the file's origin. none: not known."),
-      param(&Params::voxel, "voxel", metres, within(0, 100),
-            "Edge of the voxels that points are joined in while they are read; 0: all points are kept. Not for meshes "
-            "that are sampled.")};
+      param<&Params::voxel>(
+          metres, within(0, 100),
+          "Edge of the voxels that points are joined in while they are read; 0: all points are kept. Not for meshes "
+          "that are sampled.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -28,11 +28,11 @@ struct ReadVg {
   };
   static constexpr auto inputs = std::tuple{};
   static constexpr auto outputs =
-      std::tuple{port(&Out::planes, "planes", "The primitives with their cloud, in the file's frame, in metres.")};
-  static constexpr auto params =
-      std::tuple{param(&Params::path, "path", "The file: .vg (text) or .bvg (binary)."),
-                 param(&Params::scale, "scale", unitless, within(1e-9, 1e9),
-                       "Factor from the file's unit to metres: 0.001 for millimetres, 0.3048 for feet.")};
+      std::tuple{port<&Out::planes>("The primitives with their cloud, in the file's frame, in metres.")};
+  static constexpr auto params = std::tuple{
+      param<&Params::path>("The file: .vg (text) or .bvg (binary)."),
+      param<&Params::scale>(unitless, within(1e-9, 1e9),
+                            "Factor from the file's unit to metres: 0.001 for millimetres, 0.3048 for feet.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -48,11 +48,11 @@ struct WriteBuilding {
     OutputPath path{"building.json"};
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::building, "building", "What is written."),
-                 port(&In::transform, "transform", "From the frame that is wanted to that of the building."),
-                 port(&In::scan, "scan", "The scan that it was made from: the unit of its file is named.")};
+      std::tuple{port<&In::building>("What is written."),
+                 port<&In::transform>("From the frame that is wanted to that of the building."),
+                 port<&In::scan>("The scan that it was made from: the unit of its file is named.")};
   static constexpr auto outputs = std::tuple{};
-  static constexpr auto params = std::tuple{param(&Params::path, "path", "The JSON file.")};
+  static constexpr auto params = std::tuple{param<&Params::path>("The JSON file.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -33,13 +33,12 @@ struct WriteCloud {
     OutputPath path{"cloud.ply"};
     bool binary = true;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "What to write.")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("What to write.")};
   static constexpr auto outputs = std::tuple{};
-  static constexpr auto params =
-      std::tuple{param(&Params::path, "path",
-                       "The file, in the run's folder; its extension is the format: .ply, .pcd, .e57, .las, .laz, "
-                       ".xyz, .txt, .csv."),
-                 param(&Params::binary, "binary", "Binary where the format has both kinds (.ply, .pcd); else text.")};
+  static constexpr auto params = std::tuple{
+      param<&Params::path>("The file, in the run's folder; its extension is the format: .ply, .pcd, .e57, .las, .laz, "
+                           ".xyz, .txt, .csv."),
+      param<&Params::binary>("Binary where the format has both kinds (.ply, .pcd); else text.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -48,22 +48,19 @@ struct WriteMesh {
     bool binary = true;
     Unit unit = Unit::metre;
   };
-  static constexpr auto inputs = std::tuple{
-      port(&In::mesh, "mesh", "What to write."),
-      port(&In::textures, "textures", "Images of its faces, for .glb and .obj."),
-      port(&In::transform, "transform", "From the mesh's frame to one with z up, so that a .glb stands upright.")};
+  static constexpr auto inputs =
+      std::tuple{port<&In::mesh>("What to write."), port<&In::textures>("Images of its faces, for .glb and .obj."),
+                 port<&In::transform>("From the mesh's frame to one with z up, so that a .glb stands upright.")};
   static constexpr auto outputs = std::tuple{};
-  static constexpr auto params =
-      std::tuple{param(&Params::path, "path",
-                       "The file, in the run's folder; its extension is the format: .ply, .obj, .stl, .glb."),
-                 param(&Params::binary, "binary", "Binary where the format has both kinds (.ply, .stl); else text."),
-                 param(&Params::unit, "unit",
-                       {{"m", Unit::metre},
-                        {"cm", Unit::centimetre},
-                        {"mm", Unit::millimetre},
-                        {"in", Unit::inch},
-                        {"ft", Unit::foot}},
-                       "Unit of the coordinates in the file. A .glb is in metres always.")};
+  static constexpr auto params = std::tuple{
+      param<&Params::path>("The file, in the run's folder; its extension is the format: .ply, .obj, .stl, .glb."),
+      param<&Params::binary>("Binary where the format has both kinds (.ply, .stl); else text."),
+      param<&Params::unit>({{"m", Unit::metre},
+                            {"cm", Unit::centimetre},
+                            {"mm", Unit::millimetre},
+                            {"in", Unit::inch},
+                            {"ft", Unit::foot}},
+                           "Unit of the coordinates in the file. A .glb is in metres always.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

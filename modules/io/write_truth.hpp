@@ -29,9 +29,9 @@ struct WriteTruth {
   struct Params {
     OutputPath path{"truth.json"};
   };
-  static constexpr auto inputs = std::tuple{port(&In::truth, "truth", "What is written.")};
+  static constexpr auto inputs = std::tuple{port<&In::truth>("What is written.")};
   static constexpr auto outputs = std::tuple{};
-  static constexpr auto params = std::tuple{param(&Params::path, "path", "The JSON file.")};
+  static constexpr auto params = std::tuple{param<&Params::path>("The JSON file.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

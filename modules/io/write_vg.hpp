@@ -22,10 +22,10 @@ struct WriteVg {
   struct Params {
     OutputPath path{"planes.vg"};
   };
-  static constexpr auto inputs = std::tuple{port(&In::planes, "planes", "What to write.")};
+  static constexpr auto inputs = std::tuple{port<&In::planes>("What to write.")};
   static constexpr auto outputs = std::tuple{};
   static constexpr auto params =
-      std::tuple{param(&Params::path, "path", "The file, in the run's folder: .vg (text) or .bvg (binary, float32).")};
+      std::tuple{param<&Params::path>("The file, in the run's folder: .vg (text) or .bvg (binary, float32).")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

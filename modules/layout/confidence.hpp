@@ -49,16 +49,15 @@ struct Confidence {
     double min_confidence = 0.15;
     double doubtful = 0.75;
   };
-  static constexpr auto inputs = std::tuple{
-      port(&In::building, "building", "Closed rooms, with openings if these are known."),
-      port(&In::structure, "structure", "The planes and points that it was made from, in its frame."),
-      port(&In::transform, "transform", "From the frame in which warnings name places to that of the building.")};
+  static constexpr auto inputs =
+      std::tuple{port<&In::building>("Closed rooms, with openings if these are known."),
+                 port<&In::structure>("The planes and points that it was made from, in its frame."),
+                 port<&In::transform>("From the frame in which warnings name places to that of the building.")};
   static constexpr auto outputs =
-      std::tuple{port(&Out::building, "building", "The rooms that are left, with confidence and doubts.")};
-  static constexpr auto params =
-      std::tuple{param(&Params::min_confidence, "min_confidence", ratio, within(0, 1),
-                       "Rooms (and buildings) below this are none; 0 keeps all."),
-                 param(&Params::doubtful, "doubtful", ratio, within(0, 1), "Rooms below this are warned of.")};
+      std::tuple{port<&Out::building>("The rooms that are left, with confidence and doubts.")};
+  static constexpr auto params = std::tuple{
+      param<&Params::min_confidence>(ratio, within(0, 1), "Rooms (and buildings) below this are none; 0 keeps all."),
+      param<&Params::doubtful>(ratio, within(0, 1), "Rooms below this are warned of.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

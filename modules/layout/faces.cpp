@@ -248,7 +248,7 @@ class Assembly {
 
 }  // namespace
 
-Faces::Out Faces::run(const In& in, const Params& /*params*/, Context& context) {
+Faces::Out Faces::run(const In& in, Context& context) {
   Out out{Assembly(*in.cells, *in.structure, context).run()};
   context.info(fmt::format("{} rooms, {} faces, {} corners", out.building.rooms.size(), out.building.faces.size(),
                            out.building.vertices.size()));

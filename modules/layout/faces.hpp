@@ -34,13 +34,11 @@ struct Faces {
   struct Out {
     Building building;
   };
-  struct Params {};
   static constexpr auto inputs =
-      std::tuple{port(&In::cells, "cells", "Cells with room, floor and ceiling."),
-                 port(&In::structure, "structure", "What the cells were cut from: its points say what was observed.")};
-  static constexpr auto outputs = std::tuple{port(&Out::building, "building", "Closed rooms, without openings.")};
-  static constexpr auto params = std::tuple{};
-  static Out run(const In& in, const Params& params, Context& context);
+      std::tuple{port<&In::cells>("Cells with room, floor and ceiling."),
+                 port<&In::structure>("What the cells were cut from: its points say what was observed.")};
+  static constexpr auto outputs = std::tuple{port<&Out::building>("Closed rooms, without openings.")};
+  static Out run(const In& in, Context& context);
 };
 
 }  // namespace atrium::layout

@@ -34,18 +34,19 @@ struct Heights {
     double min_seen = 0.3;
     double min_patch = 2;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cells, "cells", "Cells with their rooms.")};
-  static constexpr auto outputs = std::tuple{port(&Out::cells, "cells", "The same, each with its floor and ceiling.")};
+  static constexpr auto inputs = std::tuple{port<&In::cells>("Cells with their rooms.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cells>("The same, each with its floor and ceiling.")};
   static constexpr auto params = std::tuple{
-      param(&Params::step_weight, "step_weight", unitless, within(0, 100), "Of a step's area against a cell's."),
-      param(&Params::border_weight, "border_weight", metres, within(0, 10),
-            "Of a border between two surfaces: the height of a step that costs as much."),
-      param(&Params::min_clearance, "min_clearance", metres, within(0, 10), "Least height of a room."),
-      param(&Params::min_seen, "min_seen", ratio, within(0, 1),
-            "Share of a room's ceiling that must have been scanned; without, one is inferred."),
-      param(&Params::min_patch, "min_patch", square_metres, within(0, 1e6),
-            "Part of a floor or ceiling that must show half of its surface to be one of its own; a larger part must "
-            "show a quarter. 0: all stay as the labelling has them.")};
+      param<&Params::step_weight>(unitless, within(0, 100), "Of a step's area against a cell's."),
+      param<&Params::border_weight>(metres, within(0, 10),
+                                    "Of a border between two surfaces: the height of a step that costs as much."),
+      param<&Params::min_clearance>(metres, within(0, 10), "Least height of a room."),
+      param<&Params::min_seen>(ratio, within(0, 1),
+                               "Share of a room's ceiling that must have been scanned; without, one is inferred."),
+      param<&Params::min_patch>(
+          square_metres, within(0, 1e6),
+          "Part of a floor or ceiling that must show half of its surface to be one of its own; a larger part must "
+          "show a quarter. 0: all stay as the labelling has them.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -126,7 +126,7 @@ class Meshing {
 
 }  // namespace
 
-Mesh::Out Mesh::run(const In& in, const Params& params, Context& /*context*/) {
+Mesh::Out Mesh::run(const In& in, const Params& params) {
   return Meshing(*in.building, params.class_colours).run(in.transform.get());
 }
 

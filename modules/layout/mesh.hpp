@@ -29,15 +29,14 @@ struct Mesh {
     bool class_colours = true;
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::building, "building", "Closed rooms with or without openings."),
-                 port(&In::transform, "transform", "From the frame that is wanted to that of the building.")};
-  static constexpr auto outputs =
-      std::tuple{port(&Out::shell, "shell", "The rooms, closed."),
-                 port(&Out::structure, "structure", "The rooms without what their openings take away."),
-                 port(&Out::openings, "openings", "The openings' panes.")};
+      std::tuple{port<&In::building>("Closed rooms with or without openings."),
+                 port<&In::transform>("From the frame that is wanted to that of the building.")};
+  static constexpr auto outputs = std::tuple{port<&Out::shell>("The rooms, closed."),
+                                             port<&Out::structure>("The rooms without what their openings take away."),
+                                             port<&Out::openings>("The openings' panes.")};
   static constexpr auto params =
-      std::tuple{param(&Params::class_colours, "class_colours", "Colour the vertices by class, for viewers.")};
-  static Out run(const In& in, const Params& params, Context& context);
+      std::tuple{param<&Params::class_colours>("Colour the vertices by class, for viewers.")};
+  static Out run(const In& in, const Params& params);
 };
 
 }  // namespace atrium::layout

@@ -27,15 +27,15 @@ struct Objects {
     double reach = 0;
     double reveal_depth = 0.5;
   };
-  static constexpr auto inputs = std::tuple{
-      port(&In::building, "building", "Closed rooms, with openings."),
-      port(&In::structure, "structure", "The points, in the building's frame: those that the layout was made from.")};
-  static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "Points of objects, in the building's frame.")};
-  static constexpr auto params = std::tuple{
-      param(&Params::distance, "distance", metres, within(0, 1), "Points this near to a face belong to it."),
-      param(&Params::reach, "reach", metres, within(0, 10), "How far outside of the rooms points still count."),
-      param(&Params::reveal_depth, "reveal_depth", metres, within(0, 10),
-            "Depth of the reveal where only one face of a wall is known.")};
+  static constexpr auto inputs =
+      std::tuple{port<&In::building>("Closed rooms, with openings."),
+                 port<&In::structure>("The points, in the building's frame: those that the layout was made from.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cloud>("Points of objects, in the building's frame.")};
+  static constexpr auto params =
+      std::tuple{param<&Params::distance>(metres, within(0, 1), "Points this near to a face belong to it."),
+                 param<&Params::reach>(metres, within(0, 10), "How far outside of the rooms points still count."),
+                 param<&Params::reveal_depth>(metres, within(0, 10),
+                                              "Depth of the reveal where only one face of a wall is known.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

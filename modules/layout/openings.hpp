@@ -60,23 +60,22 @@ struct Openings {
     double min_wide_rim = 0.6;
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::building, "building", "Closed rooms."),
-                 port(&In::structure, "structure", "The points, in the building's frame, with the scanner's places.")};
-  static constexpr auto outputs = std::tuple{port(&Out::building, "building", "The same with openings and walls.")};
-  static constexpr auto params = std::tuple{
-      param(&Params::pixel, "pixel", metres, within(0.01, 1), "Edge of the squares that a face is divided into."),
-      param(&Params::tolerance, "tolerance", metres, within(0.001, 1), "Points this near to a face lie on it."),
-      param(&Params::min_width, "min_width", metres, within(0.05, 10), "Of an opening in a wall."),
-      param(&Params::min_height, "min_height", metres, within(0.05, 10), "Of an opening in a wall."),
-      param(&Params::min_slab_width, "min_slab_width", metres, within(0.05, 10),
-            "Of an opening in a floor or ceiling."),
-      param(&Params::min_fill, "min_fill", ratio, within(0, 1), "Share of an opening's rectangle that is a hole."),
-      param(&Params::sill_height, "sill_height", metres, within(0, 10), "Lower openings are doors."),
-      param(&Params::max_thickness, "max_thickness", metres, within(0.01, 10), "Of a wall or slab."),
-      param(&Params::max_door_width, "max_door_width", metres, within(0.1, 100), "What is wider is a passage."),
-      param(&Params::min_rim, "min_rim", ratio, within(0, 1), "Share of the rim around an opening that was seen."),
-      param(&Params::min_wide_rim, "min_wide_rim", ratio, within(0, 1),
-            "The same for slabs, and for openings wider than max_door_width.")};
+      std::tuple{port<&In::building>("Closed rooms."),
+                 port<&In::structure>("The points, in the building's frame, with the scanner's places.")};
+  static constexpr auto outputs = std::tuple{port<&Out::building>("The same with openings and walls.")};
+  static constexpr auto params =
+      std::tuple{param<&Params::pixel>(metres, within(0.01, 1), "Edge of the squares that a face is divided into."),
+                 param<&Params::tolerance>(metres, within(0.001, 1), "Points this near to a face lie on it."),
+                 param<&Params::min_width>(metres, within(0.05, 10), "Of an opening in a wall."),
+                 param<&Params::min_height>(metres, within(0.05, 10), "Of an opening in a wall."),
+                 param<&Params::min_slab_width>(metres, within(0.05, 10), "Of an opening in a floor or ceiling."),
+                 param<&Params::min_fill>(ratio, within(0, 1), "Share of an opening's rectangle that is a hole."),
+                 param<&Params::sill_height>(metres, within(0, 10), "Lower openings are doors."),
+                 param<&Params::max_thickness>(metres, within(0.01, 10), "Of a wall or slab."),
+                 param<&Params::max_door_width>(metres, within(0.1, 100), "What is wider is a passage."),
+                 param<&Params::min_rim>(ratio, within(0, 1), "Share of the rim around an opening that was seen."),
+                 param<&Params::min_wide_rim>(ratio, within(0, 1),
+                                              "The same for slabs, and for openings wider than max_door_width.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -37,18 +37,16 @@ struct Partition {
     double extension = 3;
     double margin = 1;
   };
-  static constexpr auto inputs =
-      std::tuple{port(&In::structure, "structure", "Candidates for walls, floors and ceilings, z up.")};
-  static constexpr auto outputs = std::tuple{port(&Out::cells, "cells", "The cells of each storey, undecided.")};
-  static constexpr auto params =
-      std::tuple{param(&Params::pixel, "pixel", metres, within(0.01, 1),
-                       "Least edge of the squares in which coverage is counted."),
-                 param(&Params::min_gap, "min_gap", metres, within(0.001, 1),
-                       "Parallel walls nearer to each other than this share a line: less than the thinnest wall. Three "
-                       "times the noise where that is more."),
-                 param(&Params::extension, "extension", metres, within(0, 1000),
-                       "How far a wall's line reaches beyond its points."),
-                 param(&Params::margin, "margin", metres, within(0.1, 100), "Width of the outside around all points.")};
+  static constexpr auto inputs = std::tuple{port<&In::structure>("Candidates for walls, floors and ceilings, z up.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cells>("The cells of each storey, undecided.")};
+  static constexpr auto params = std::tuple{
+      param<&Params::pixel>(metres, within(0.01, 1), "Least edge of the squares in which coverage is counted."),
+      param<&Params::min_gap>(
+          metres, within(0.001, 1),
+          "Parallel walls nearer to each other than this share a line: less than the thinnest wall. Three "
+          "times the noise where that is more."),
+      param<&Params::extension>(metres, within(0, 1000), "How far a wall's line reaches beyond its points."),
+      param<&Params::margin>(metres, within(0.1, 100), "Width of the outside around all points.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

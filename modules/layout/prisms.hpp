@@ -57,34 +57,35 @@ struct Prisms {
     double reach = 3;
     double margin = 1;
   };
-  static constexpr auto inputs = std::tuple{port(&In::planes, "planes", "Primitives, z up, each plane once.")};
-  static constexpr auto outputs =
-      std::tuple{port(&Out::cells, "cells", "Cells with room, floor and ceiling, storey by storey."),
-                 port(&Out::structure, "structure", "The primitives with class and storey.")};
+  static constexpr auto inputs = std::tuple{port<&In::planes>("Primitives, z up, each plane once.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cells>("Cells with room, floor and ceiling, storey by storey."),
+                                             port<&Out::structure>("The primitives with class and storey.")};
   static constexpr auto params = std::tuple{
-      param(&Params::ceiling_weight, "ceiling_weight", unitless, within(0, 100), "Of what was seen through a prism."),
-      param(&Params::floor_weight, "floor_weight", unitless, within(0, 100), "Of a floor under a prism."),
-      param(&Params::outside_weight, "outside_weight", unitless, within(0, 100), "Of what nothing was seen through."),
-      param(&Params::wall_weight, "wall_weight", unitless, within(0, 100), "Of a surface before or behind a prism."),
-      param(&Params::smoothness, "smoothness", unitless, within(0, 100), "Of borders where no surface was seen."),
-      param(&Params::complexity, "complexity", unitless, within(0, 100), "Of all borders."),
-      param(&Params::min_area, "min_area", square_metres, within(0, 1e6), "Smallest room."),
-      param(&Params::min_cover, "min_cover", ratio, within(0, 1), "Least share of a room's area that was seen."),
-      param(&Params::min_clearance, "min_clearance", metres, within(0.5, 10), "Room to stand."),
-      param(&Params::min_level_area, "min_level_area", square_metres, within(0, 1000), "Smallest floor or ceiling."),
-      param(&Params::min_level_width, "min_level_width", metres, within(0, 100),
-            "A floor or ceiling holds a square this wide; the soffits of doors and windows do not."),
-      param(&Params::min_wall_area, "min_wall_area", square_metres, within(0, 1000), "Smallest wall."),
-      param(&Params::min_wall_length, "min_wall_length", metres, within(0, 100), "Shortest wall."),
-      param(&Params::pixel, "pixel", metres, within(0.01, 1),
-            "Least edge of the squares in which coverage is counted; scans that do not fill them have larger ones."),
-      param(&Params::min_gap, "min_gap", metres, within(0.001, 1),
-            "Surfaces nearer to each other than this are one. Three times the noise where that is more."),
-      param(&Params::extension, "extension", metres, within(0, 1000),
-            "How far a wall's line reaches beyond its points."),
-      param(&Params::reach, "reach", metres, within(0, 100),
-            "How far from where it was seen a floor or ceiling may go on unseen."),
-      param(&Params::margin, "margin", metres, within(0.1, 100), "Width of the outside around all points.")};
+      param<&Params::ceiling_weight>(unitless, within(0, 100), "Of what was seen through a prism."),
+      param<&Params::floor_weight>(unitless, within(0, 100), "Of a floor under a prism."),
+      param<&Params::outside_weight>(unitless, within(0, 100), "Of what nothing was seen through."),
+      param<&Params::wall_weight>(unitless, within(0, 100), "Of a surface before or behind a prism."),
+      param<&Params::smoothness>(unitless, within(0, 100), "Of borders where no surface was seen."),
+      param<&Params::complexity>(unitless, within(0, 100), "Of all borders."),
+      param<&Params::min_area>(square_metres, within(0, 1e6), "Smallest room."),
+      param<&Params::min_cover>(ratio, within(0, 1), "Least share of a room's area that was seen."),
+      param<&Params::min_clearance>(metres, within(0.5, 10), "Room to stand."),
+      param<&Params::min_level_area>(square_metres, within(0, 1000), "Smallest floor or ceiling."),
+      param<&Params::min_level_width>(
+          metres, within(0, 100),
+          "A floor or ceiling holds a square this wide; the soffits of doors and windows do not."),
+      param<&Params::min_wall_area>(square_metres, within(0, 1000), "Smallest wall."),
+      param<&Params::min_wall_length>(metres, within(0, 100), "Shortest wall."),
+      param<&Params::pixel>(
+          metres, within(0.01, 1),
+          "Least edge of the squares in which coverage is counted; scans that do not fill them have larger ones."),
+      param<&Params::min_gap>(
+          metres, within(0.001, 1),
+          "Surfaces nearer to each other than this are one. Three times the noise where that is more."),
+      param<&Params::extension>(metres, within(0, 1000), "How far a wall's line reaches beyond its points."),
+      param<&Params::reach>(metres, within(0, 100),
+                            "How far from where it was seen a floor or ceiling may go on unseen."),
+      param<&Params::margin>(metres, within(0.1, 100), "Width of the outside around all points.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

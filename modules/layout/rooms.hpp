@@ -46,22 +46,23 @@ struct Rooms {
     double min_island = 0.4;
     double min_detail = 0.03;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cells, "cells", "Cells with their coverage.")};
-  static constexpr auto outputs = std::tuple{port(&Out::cells, "cells", "The same, each with its room or none.")};
+  static constexpr auto inputs = std::tuple{port<&In::cells>("Cells with their coverage.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cells>("The same, each with its room or none.")};
   static constexpr auto params = std::tuple{
-      param(&Params::ceiling_weight, "ceiling_weight", unitless, within(0, 100), "Of a ceiling over a cell."),
-      param(&Params::floor_weight, "floor_weight", unitless, within(0, 100), "Of a floor under a cell."),
-      param(&Params::outside_weight, "outside_weight", unitless, within(0, 100), "Of what shows no ceiling."),
-      param(&Params::wall_weight, "wall_weight", unitless, within(0, 100), "Of a wall before or behind a cell."),
-      param(&Params::smoothness, "smoothness", unitless, within(0, 100), "Of borders where no wall was seen."),
-      param(&Params::complexity, "complexity", unitless, within(0, 100), "Of all borders."),
-      param(&Params::min_area, "min_area", square_metres, within(0, 1e6), "Smallest room."),
-      param(&Params::min_island, "min_island", ratio, within(0, 1),
-            "What a room surrounds belongs to it, unless this share of the walls around it was seen: a column."),
-      param(&Params::min_detail, "min_detail", square_metres, within(0, 1),
-            "Smallest niche or pilaster, seen from above; what is smaller is evened out."),
-      param(
-          &Params::min_cover, "min_cover", ratio, within(0, 1),
+      param<&Params::ceiling_weight>(unitless, within(0, 100), "Of a ceiling over a cell."),
+      param<&Params::floor_weight>(unitless, within(0, 100), "Of a floor under a cell."),
+      param<&Params::outside_weight>(unitless, within(0, 100), "Of what shows no ceiling."),
+      param<&Params::wall_weight>(unitless, within(0, 100), "Of a wall before or behind a cell."),
+      param<&Params::smoothness>(unitless, within(0, 100), "Of borders where no wall was seen."),
+      param<&Params::complexity>(unitless, within(0, 100), "Of all borders."),
+      param<&Params::min_area>(square_metres, within(0, 1e6), "Smallest room."),
+      param<&Params::min_island>(
+          ratio, within(0, 1),
+          "What a room surrounds belongs to it, unless this share of the walls around it was seen: a column."),
+      param<&Params::min_detail>(square_metres, within(0, 1),
+                                 "Smallest niche or pilaster, seen from above; what is smaller is evened out."),
+      param<&Params::min_cover>(
+          ratio, within(0, 1),
           "Least share of a room's area seen as floor, ceiling or anything between, whichever covers most of a cell.")};
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -37,21 +37,22 @@ struct Storeys {
     double min_wall_length = 0.25;
     double pixel = 0.05;
   };
-  static constexpr auto inputs = std::tuple{port(&In::planes, "planes", "Primitives, z up, each plane once.")};
+  static constexpr auto inputs = std::tuple{port<&In::planes>("Primitives, z up, each plane once.")};
   static constexpr auto outputs =
-      std::tuple{port(&Out::structure, "structure", "The primitives with class and storey: candidates.")};
+      std::tuple{port<&Out::structure>("The primitives with class and storey: candidates.")};
   static constexpr auto params =
-      std::tuple{param(&Params::max_slab, "max_slab", metres, within(0, 10), "Greatest thickness of a slab."),
-                 param(&Params::min_clearance, "min_clearance", metres, within(0.5, 10), "Room to stand."),
-                 param(&Params::max_step, "max_step", metres, within(0, 10),
-                       "What lies higher over the main floor is furniture, unless it is large."),
-                 param(&Params::min_area, "min_area", square_metres, within(0, 1000), "Smallest floor or ceiling."),
-                 param(&Params::min_width, "min_width", metres, within(0, 100),
-                       "A floor or ceiling holds a square this wide; the soffits of doors and windows do not."),
-                 param(&Params::min_wall_area, "min_wall_area", square_metres, within(0, 1000), "Smallest wall."),
-                 param(&Params::min_wall_length, "min_wall_length", metres, within(0, 100), "Shortest wall."),
-                 param(&Params::pixel, "pixel", metres, within(0.01, 1),
-                       "Least edge of the squares; scans that do not fill them have larger ones.")};
+      std::tuple{param<&Params::max_slab>(metres, within(0, 10), "Greatest thickness of a slab."),
+                 param<&Params::min_clearance>(metres, within(0.5, 10), "Room to stand."),
+                 param<&Params::max_step>(metres, within(0, 10),
+                                          "What lies higher over the main floor is furniture, unless it is large."),
+                 param<&Params::min_area>(square_metres, within(0, 1000), "Smallest floor or ceiling."),
+                 param<&Params::min_width>(
+                     metres, within(0, 100),
+                     "A floor or ceiling holds a square this wide; the soffits of doors and windows do not."),
+                 param<&Params::min_wall_area>(square_metres, within(0, 1000), "Smallest wall."),
+                 param<&Params::min_wall_length>(metres, within(0, 100), "Shortest wall."),
+                 param<&Params::pixel>(metres, within(0.01, 1),
+                                       "Least edge of the squares; scans that do not fill them have larger ones.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

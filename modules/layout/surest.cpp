@@ -57,7 +57,7 @@ Judgement judge(const Input<CellComplex>& cells, const Input<Structure>& structu
   Context quiet(1, std::make_shared<QuietHost>(context));
   Judgement result;
   try {
-    auto building = input(Faces::run({cells, structure}, {}, quiet).building);
+    auto building = input(Faces::run({cells, structure}, quiet).building);
     const Building sure = Confidence::run({building, structure, {}}, {}, quiet).building;
     result.confidence = sure.confidence;
     result.rooms = sure.rooms.size();

@@ -30,15 +30,14 @@ struct Surest {
   struct Params {
     double margin = 0.05;
   };
-  static constexpr auto inputs =
-      std::tuple{port(&In::cells, "cells", "Cells with room, floor and ceiling: the first proposal."),
-                 port(&In::structure, "structure", "Its primitives with class and storey."),
-                 port(&In::other_cells, "other_cells", "Those of the other proposal."),
-                 port(&In::other_structure, "other_structure", "Its primitives with class and storey.")};
-  static constexpr auto outputs = std::tuple{port(&Out::cells, "cells", "Those of the proposal that is taken."),
-                                             port(&Out::structure, "structure", "Its primitives.")};
-  static constexpr auto params = std::tuple{
-      param(&Params::margin, "margin", ratio, within(0, 10), "By how much the other proposal must be better.")};
+  static constexpr auto inputs = std::tuple{port<&In::cells>("Cells with room, floor and ceiling: the first proposal."),
+                                            port<&In::structure>("Its primitives with class and storey."),
+                                            port<&In::other_cells>("Those of the other proposal."),
+                                            port<&In::other_structure>("Its primitives with class and storey.")};
+  static constexpr auto outputs =
+      std::tuple{port<&Out::cells>("Those of the proposal that is taken."), port<&Out::structure>("Its primitives.")};
+  static constexpr auto params =
+      std::tuple{param<&Params::margin>(ratio, within(0, 10), "By how much the other proposal must be better.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

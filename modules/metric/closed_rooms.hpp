@@ -34,12 +34,12 @@ struct ClosedRooms {
     double min_iou = 0.5;
     std::int64_t samples = 20'000;
   };
-  static constexpr auto inputs = std::tuple{port(&In::mesh, "mesh", "The model, in the truth's frame."),
-                                            port(&In::truth, "truth", "The true rooms: their faces and openings.")};
-  static constexpr auto outputs = std::tuple{port(&Out::metrics, "metrics", "closed_rooms.…: counts and shares.")};
+  static constexpr auto inputs = std::tuple{port<&In::mesh>("The model, in the truth's frame."),
+                                            port<&In::truth>("The true rooms: their faces and openings.")};
+  static constexpr auto outputs = std::tuple{port<&Out::metrics>("closed_rooms.…: counts and shares.")};
   static constexpr auto params = std::tuple{
-      param(&Params::min_iou, "min_iou", ratio, within(0, 1), "Volumes match above this intersection over union."),
-      param(&Params::samples, "samples", count, within(100, 1e7), "Places at which a room's box is probed."),
+      param<&Params::min_iou>(ratio, within(0, 1), "Volumes match above this intersection over union."),
+      param<&Params::samples>(count, within(100, 1e7), "Places at which a room's box is probed."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

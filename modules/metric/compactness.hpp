@@ -35,13 +35,14 @@ struct Compactness {
   struct Params {
     double sagitta = 0.005;
   };
-  static constexpr auto inputs = std::tuple{port(&In::mesh, "mesh", "The structural model."),
-                                            port(&In::truth, "truth", "The true rooms; without it: counts only.")};
-  static constexpr auto outputs = std::tuple{port(&Out::metrics, "metrics", "compactness.…: counts and their ratio.")};
+  static constexpr auto inputs = std::tuple{port<&In::mesh>("The structural model."),
+                                            port<&In::truth>("The true rooms; without it: counts only.")};
+  static constexpr auto outputs = std::tuple{port<&Out::metrics>("compactness.…: counts and their ratio.")};
   static constexpr auto params = std::tuple{
-      param(&Params::sagitta, "sagitta", metres, within(0, 1),
-            "How far the least chain of corners may leave a true outline; above 1 mm, what rounding leaves is no "
-            "corner."),
+      param<&Params::sagitta>(
+          metres, within(0, 1),
+          "How far the least chain of corners may leave a true outline; above 1 mm, what rounding leaves is no "
+          "corner."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -46,17 +46,17 @@ struct Distance {
     std::int64_t max_samples = 1'000'000;
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::cloud, "cloud", "The scan."), port(&In::mesh, "mesh", "The mesh, in the cloud's frame."),
-                 port(&In::structure, "structure", "Its walls, floors and ceilings alone, in the same frame."),
-                 port(&In::truth, "truth", "The true walls, floors and ceilings, in the same frame.")};
-  static constexpr auto outputs = std::tuple{port(&Out::metrics, "metrics", "distance.…: metres and shares.")};
+      std::tuple{port<&In::cloud>("The scan."), port<&In::mesh>("The mesh, in the cloud's frame."),
+                 port<&In::structure>("Its walls, floors and ceilings alone, in the same frame."),
+                 port<&In::truth>("The true walls, floors and ceilings, in the same frame.")};
+  static constexpr auto outputs = std::tuple{port<&Out::metrics>("distance.…: metres and shares.")};
   static constexpr auto params = std::tuple{
-      param(&Params::limit, "limit", metres, within(0, 1000), "What is further counts as beyond."),
-      param(&Params::truth_distance, "truth_distance", metres, within(0, 1000),
-            "Points this near to the true structure are the structure's."),
-      param(&Params::spacing, "spacing", metres, within(1e-4, 100), "Of the mesh's samples: one per spacing²."),
-      param(&Params::max_samples, "max_samples", count, within(1, 1e9),
-            "With a mesh so large that it would take more, samples stand further apart."),
+      param<&Params::limit>(metres, within(0, 1000), "What is further counts as beyond."),
+      param<&Params::truth_distance>(metres, within(0, 1000),
+                                     "Points this near to the true structure are the structure's."),
+      param<&Params::spacing>(metres, within(1e-4, 100), "Of the mesh's samples: one per spacing²."),
+      param<&Params::max_samples>(count, within(1, 1e9),
+                                  "With a mesh so large that it would take more, samples stand further apart."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

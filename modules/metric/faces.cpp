@@ -48,7 +48,7 @@ void report(Metrics& metrics, const std::string& name, const Count& count, bool 
 
 }  // namespace
 
-Faces::Out Faces::run(const In& in, const Params& /*params*/, Context& /*context*/) {
+Faces::Out Faces::run(const In& in) {
   const Mesh& mesh = *in.mesh;
   check_mesh(mesh, "the mesh");
   const bool with_primitives = !mesh.primitives.empty();

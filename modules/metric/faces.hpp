@@ -21,11 +21,9 @@ struct Faces {
   struct Out {
     Metrics metrics;
   };
-  struct Params {};
-  static constexpr auto inputs = std::tuple{port(&In::mesh, "mesh", "What is counted.")};
-  static constexpr auto outputs = std::tuple{port(&Out::metrics, "metrics", "faces.…: counts, areas in m2.")};
-  static constexpr auto params = std::tuple{};
-  static Out run(const In& in, const Params& params, Context& context);
+  static constexpr auto inputs = std::tuple{port<&In::mesh>("What is counted.")};
+  static constexpr auto outputs = std::tuple{port<&Out::metrics>("faces.…: counts, areas in m2.")};
+  static Out run(const In& in);
 };
 
 }  // namespace atrium::metric

@@ -38,14 +38,13 @@ struct Openings {
     double max_distance = 0.2;
   };
   static constexpr auto inputs = std::tuple{
-      port(&In::building, "building", "What was found; nothing, where it is not wired."),
-      port(&In::truth, "truth", "The true openings."),
-      port(&In::transform, "transform", "From the truth's frame to the building's; without it they are the same.")};
-  static constexpr auto outputs = std::tuple{port(&Out::metrics, "metrics", "openings.…: counts and shares.")};
+      port<&In::building>("What was found; nothing, where it is not wired."), port<&In::truth>("The true openings."),
+      port<&In::transform>("From the truth's frame to the building's; without it they are the same.")};
+  static constexpr auto outputs = std::tuple{port<&Out::metrics>("openings.…: counts and shares.")};
   static constexpr auto params = std::tuple{
-      param(&Params::min_iou, "min_iou", ratio, within(0, 1), "Outlines match above this intersection over union."),
-      param(&Params::max_angle, "max_angle", degrees, within(0, 90), "Between the planes of openings that match."),
-      param(&Params::max_distance, "max_distance", metres, within(0, 10), "Between an opening and the true wall."),
+      param<&Params::min_iou>(ratio, within(0, 1), "Outlines match above this intersection over union."),
+      param<&Params::max_angle>(degrees, within(0, 90), "Between the planes of openings that match."),
+      param<&Params::max_distance>(metres, within(0, 10), "Between an opening and the true wall."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -50,14 +50,14 @@ struct Primitives {
     std::int64_t min_points = 50;
     double max_distance = 0.05;
   };
-  static constexpr auto inputs = std::tuple{port(&In::planes, "planes", "The primitives, with their cloud."),
-                                            port(&In::truth, "truth", "The true faces, in the frame of that cloud.")};
-  static constexpr auto outputs = std::tuple{port(&Out::metrics, "metrics", "primitives.…: counts, shares, deg, m.")};
+  static constexpr auto inputs = std::tuple{port<&In::planes>("The primitives, with their cloud."),
+                                            port<&In::truth>("The true faces, in the frame of that cloud.")};
+  static constexpr auto outputs = std::tuple{port<&Out::metrics>("primitives.…: counts, shares, deg, m.")};
   static constexpr auto params = std::tuple{
-      param(&Params::thresholds, "thresholds", ratio, within(0.5, 1), "Shares from which on regions agree (T)."),
-      param(&Params::min_points, "min_points", count, within(1, 1e9), "Faces with fewer points were not scanned."),
-      param(&Params::max_distance, "max_distance", metres, within(0, 10),
-            "Without labels: points further from every face belong to none."),
+      param<&Params::thresholds>(ratio, within(0.5, 1), "Shares from which on regions agree (T)."),
+      param<&Params::min_points>(count, within(1, 1e9), "Faces with fewer points were not scanned."),
+      param<&Params::max_distance>(metres, within(0, 10),
+                                   "Without labels: points further from every face belong to none."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

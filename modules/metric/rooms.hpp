@@ -48,18 +48,17 @@ struct Rooms {
     double max_angle = 5;
     double max_height = 1;
   };
-  static constexpr auto inputs = std::tuple{
-      port(&In::plan, "plan", "What was found."),
-      port(&In::truth, "truth", "The true rooms, in the frame that the plan was made in; this or true_plan."),
-      port(&In::true_plan, "true_plan",
-           "The true rooms as a plan of the same scan, its frame undone by its to_plan; this or truth.")};
-  static constexpr auto outputs = std::tuple{port(&Out::metrics, "metrics", "rooms.…: counts, shares, m, deg.")};
+  static constexpr auto inputs =
+      std::tuple{port<&In::plan>("What was found."),
+                 port<&In::truth>("The true rooms, in the frame that the plan was made in; this or true_plan."),
+                 port<&In::true_plan>(
+                     "The true rooms as a plan of the same scan, its frame undone by its to_plan; this or truth.")};
+  static constexpr auto outputs = std::tuple{port<&Out::metrics>("rooms.…: counts, shares, m, deg.")};
   static constexpr auto params = std::tuple{
-      param(&Params::min_iou, "min_iou", ratio, within(0, 1), "Rooms match above this intersection over union."),
-      param(&Params::corner_distance, "corner_distance", metres, within(0, 100), "Corners match within it."),
-      param(&Params::max_angle, "max_angle", degrees, within(0, 180), "Angles match within it."),
-      param(&Params::max_height, "max_height", metres, within(0, 100),
-            "Rooms further apart in height are of different storeys."),
+      param<&Params::min_iou>(ratio, within(0, 1), "Rooms match above this intersection over union."),
+      param<&Params::corner_distance>(metres, within(0, 100), "Corners match within it."),
+      param<&Params::max_angle>(degrees, within(0, 180), "Angles match within it."),
+      param<&Params::max_height>(metres, within(0, 100), "Rooms further apart in height are of different storeys."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -51,21 +51,19 @@ struct Structure {
     std::int64_t max_samples = 2'000'000;
   };
   static constexpr auto inputs =
-      std::tuple{port(&In::mesh, "mesh", "The reconstructed structure, in the truth's frame."),
-                 port(&In::truth, "truth", "The true structure of a simulated scene; this or truth_mesh."),
-                 port(&In::truth_mesh, "truth_mesh", "The true structure as a mesh; this or truth.")};
-  static constexpr auto outputs =
-      std::tuple{port(&Out::metrics, "metrics", "structure.…: shares and metres."),
-                 port(&Out::curve, "curve", "structure_curve.…: the same, buffer by buffer.")};
+      std::tuple{port<&In::mesh>("The reconstructed structure, in the truth's frame."),
+                 port<&In::truth>("The true structure of a simulated scene; this or truth_mesh."),
+                 port<&In::truth_mesh>("The true structure as a mesh; this or truth.")};
+  static constexpr auto outputs = std::tuple{port<&Out::metrics>("structure.…: shares and metres."),
+                                             port<&Out::curve>("structure_curve.…: the same, buffer by buffer.")};
   static constexpr auto params = std::tuple{
-      param(&Params::buffers, "buffers", metres, within(0.001, 10), "Distances b within which surfaces match."),
-      param(&Params::curve_step, "curve_step", metres, within(0.001, 10), "Between the buffers of the curve."),
-      param(&Params::curve_reach, "curve_reach", metres, within(0, 10), "The last buffer of the curve; 0: no curve."),
-      param(&Params::max_angle, "max_angle", degrees, within(0, 90), "Between the normals of surfaces that match."),
-      param(&Params::oriented, "oriented", "Whether surfaces that look the opposite way are no match."),
-      param(&Params::spacing, "spacing", metres, within(1e-4, 10), "Of the samples: one per spacing²."),
-      param(&Params::max_samples, "max_samples", count, within(1, 1e9),
-            "Samples stand further apart if it takes more."),
+      param<&Params::buffers>(metres, within(0.001, 10), "Distances b within which surfaces match."),
+      param<&Params::curve_step>(metres, within(0.001, 10), "Between the buffers of the curve."),
+      param<&Params::curve_reach>(metres, within(0, 10), "The last buffer of the curve; 0: no curve."),
+      param<&Params::max_angle>(degrees, within(0, 90), "Between the normals of surfaces that match."),
+      param<&Params::oriented>("Whether surfaces that look the opposite way are no match."),
+      param<&Params::spacing>(metres, within(1e-4, 10), "Of the samples: one per spacing²."),
+      param<&Params::max_samples>(count, within(1, 1e9), "Samples stand further apart if it takes more."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -55,13 +55,14 @@ struct Validity {
     double depth = 0.001;
     std::int64_t listed = 5;
   };
-  static constexpr auto inputs = std::tuple{port(&In::mesh, "mesh", "What is looked at; classes do not matter.")};
-  static constexpr auto outputs = std::tuple{port(&Out::metrics, "metrics", "validity.…: counts, m, m2, m3.")};
+  static constexpr auto inputs = std::tuple{port<&In::mesh>("What is looked at; classes do not matter.")};
+  static constexpr auto outputs = std::tuple{port<&Out::metrics>("validity.…: counts, m, m2, m3.")};
   static constexpr auto params = std::tuple{
-      param(&Params::tolerance, "tolerance", metres, within(0, 1),
-            "Vertices at most this far apart, step by step, are one. 0: only those at exactly the same place."),
-      param(&Params::depth, "depth", metres, within(0, 10), "Shallower crossings are left out of the deep ones."),
-      param(&Params::listed, "listed", count, within(0, 1000), "How many components are described one by one."),
+      param<&Params::tolerance>(
+          metres, within(0, 1),
+          "Vertices at most this far apart, step by step, are one. 0: only those at exactly the same place."),
+      param<&Params::depth>(metres, within(0, 10), "Shallower crossings are left out of the deep ones."),
+      param<&Params::listed>(count, within(0, 1000), "How many components are described one by one."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -62,7 +62,7 @@ bool wants_csv(const std::string& path) { return path.size() >= 4 && path.compar
 
 }  // namespace
 
-Write::Out Write::run(const In& in, const Params& params, Context& context) {
+void Write::run(const In& in, const Params& params, Context& context) {
   Json root = Json::object();
   std::string csv = "name,value,unit\n";
   Names names;
@@ -82,7 +82,7 @@ Write::Out Write::run(const In& in, const Params& params, Context& context) {
   file.write(wants_csv(params.path.path) ? csv : root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   file.commit();
   context.wrote(path);
-  return {};
+  return;
 }
 
 }  // namespace atrium::metric

@@ -15,14 +15,12 @@ struct Write {
   struct In {
     Inputs<Metrics> metrics;
   };
-  struct Out {};
   struct Params {
     OutputPath path{"metrics.json"};
   };
-  static constexpr auto inputs = std::tuple{port(&In::metrics, "metrics", "Any number of them, joined in this order.")};
-  static constexpr auto outputs = std::tuple{};
-  static constexpr auto params = std::tuple{param(&Params::path, "path", "The file: .csv, else JSON.")};
-  static Out run(const In& in, const Params& params, Context& context);
+  static constexpr auto inputs = std::tuple{port<&In::metrics>("Any number of them, joined in this order.")};
+  static constexpr auto params = std::tuple{param<&Params::path>("The file: .csv, else JSON.")};
+  static void run(const In& in, const Params& params, Context& context);
 };
 
 }  // namespace atrium::metric

@@ -42,17 +42,17 @@ struct Estimate {
     double radius = 0.05;
     std::int64_t neighbours = 16;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points.")};
-  static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "The same points and columns, with normals.")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cloud>("The same points and columns, with normals.")};
   static constexpr auto params = std::tuple{
-      param(&Params::method, "method",
-            {{"voxels", Method::voxels}, {"radius", Method::radius}, {"neighbours", Method::neighbours}},
-            "How the points that share a plane are found."),
-      param(&Params::voxel, "voxel", metres, within(0.001, 10),
-            "Edge of a voxel (method voxels). Above 5 cm, the two sides of a 12 cm wall fall into one neighbourhood."),
-      param(&Params::radius, "radius", metres, within(0.001, 10), "Search radius (method radius)."),
-      param(&Params::neighbours, "neighbours", count, within(3, 1000),
-            "Points in a neighbourhood (method neighbours).")};
+      param<&Params::method>(
+          {{"voxels", Method::voxels}, {"radius", Method::radius}, {"neighbours", Method::neighbours}},
+          "How the points that share a plane are found."),
+      param<&Params::voxel>(
+          metres, within(0.001, 10),
+          "Edge of a voxel (method voxels). Above 5 cm, the two sides of a 12 cm wall fall into one neighbourhood."),
+      param<&Params::radius>(metres, within(0.001, 10), "Search radius (method radius)."),
+      param<&Params::neighbours>(count, within(3, 1000), "Points in a neighbourhood (method neighbours).")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

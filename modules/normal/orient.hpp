@@ -36,17 +36,17 @@ struct Orient {
     double voxel = 0.05;
     double range = 15;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points with normals.")};
-  static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "The same points, normals turned.")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points with normals.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cloud>("The same points, normals turned.")};
   static constexpr auto params = std::tuple{
-      param(&Params::towards, "towards",
-            {{"auto", Towards::automatic}, {"sensors", Towards::sensors}, {"inside", Towards::inside}},
-            "Where normals point to."),
-      param(&Params::voxel, "voxel", metres, within(0.01, 1),
-            "Edge of a voxel of the free space (inside); doubled, up to eight times it, until two occupied voxels hold "
-            "three points on average. Faces nearer to each other than this are taken for one."),
-      param(&Params::range, "range", metres, within(0.1, 1000),
-            "Length of a ray (inside): the size of the largest room.")};
+      param<&Params::towards>(
+          {{"auto", Towards::automatic}, {"sensors", Towards::sensors}, {"inside", Towards::inside}},
+          "Where normals point to."),
+      param<&Params::voxel>(
+          metres, within(0.01, 1),
+          "Edge of a voxel of the free space (inside); doubled, up to eight times it, until two occupied voxels hold "
+          "three points on average. Faces nearer to each other than this are taken for one."),
+      param<&Params::range>(metres, within(0.1, 1000), "Length of a ray (inside): the size of the largest room.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

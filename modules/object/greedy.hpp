@@ -28,17 +28,17 @@ struct Greedy {
     double min_angle = 10;
     double max_angle = 120;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points of the objects, with normals.")};
-  static constexpr auto outputs = std::tuple{port(&Out::mesh, "mesh", "Their surface, in the cloud's frame.")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points of the objects, with normals.")};
+  static constexpr auto outputs = std::tuple{port<&Out::mesh>("Their surface, in the cloud's frame.")};
   static constexpr auto params = std::tuple{
-      param(&Params::search_radius, "search_radius", metres, within(1e-4, 10), "Longest possible edge of a triangle."),
-      param(&Params::reach, "reach", unitless, within(1, 20),
-            "Neighbours are sought within this many times the distance of a point's nearest neighbour (PCL's mu)."),
-      param(&Params::max_neighbours, "max_neighbours", count, within(3, 1000), "Most neighbours of a point looked at."),
-      param(&Params::max_surface_angle, "max_surface_angle", degrees, within(1, 180),
-            "Points whose normals differ by more are not joined."),
-      param(&Params::min_angle, "min_angle", degrees, within(0, 60), "Least angle aimed at in a triangle."),
-      param(&Params::max_angle, "max_angle", degrees, within(60, 180), "Greatest angle in a triangle.")};
+      param<&Params::search_radius>(metres, within(1e-4, 10), "Longest possible edge of a triangle."),
+      param<&Params::reach>(
+          unitless, within(1, 20),
+          "Neighbours are sought within this many times the distance of a point's nearest neighbour (PCL's mu)."),
+      param<&Params::max_neighbours>(count, within(3, 1000), "Most neighbours of a point looked at."),
+      param<&Params::max_surface_angle>(degrees, within(1, 180), "Points whose normals differ by more are not joined."),
+      param<&Params::min_angle>(degrees, within(0, 60), "Least angle aimed at in a triangle."),
+      param<&Params::max_angle>(degrees, within(60, 180), "Greatest angle in a triangle.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -2,7 +2,7 @@
 
 namespace atrium::object {
 
-None::Out None::run(const In& in, const Params& /*params*/, Context& /*context*/) {
+None::Out None::run(const In& in) {
   Out out;
   out.mesh.origin = in.cloud->origin;
   return out;

@@ -15,11 +15,9 @@ struct None {
   struct Out {
     Mesh mesh;
   };
-  struct Params {};
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points of the objects; not used.")};
-  static constexpr auto outputs = std::tuple{port(&Out::mesh, "mesh", "Nothing, at the cloud's origin.")};
-  static constexpr auto params = std::tuple{};
-  static Out run(const In& in, const Params& params, Context& context);
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points of the objects; not used.")};
+  static constexpr auto outputs = std::tuple{port<&Out::mesh>("Nothing, at the cloud's origin.")};
+  static Out run(const In& in);
 };
 
 }  // namespace atrium::object

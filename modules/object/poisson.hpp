@@ -32,19 +32,23 @@ struct Poisson {
     double point_weight = 4;
     double trim = 0.06;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points of the objects, with normals.")};
-  static constexpr auto outputs = std::tuple{port(&Out::mesh, "mesh", "Their surface, in the cloud's frame.")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points of the objects, with normals.")};
+  static constexpr auto outputs = std::tuple{port<&Out::mesh>("Their surface, in the cloud's frame.")};
   static constexpr auto params = std::tuple{
-      param(&Params::depth, "depth", count, within(3, 12),
-            "Depth of the octree: the finest cell is the cloud's extent times 1.1 over 2^depth. Each step more costs "
-            "about "
-            "four times the time and memory where points are dense enough."),
-      param(&Params::samples_per_node, "samples_per_node", count, within(1, 50),
-            "Least number of points in a cell of the octree: 1 to 5 for clean points, up to 20 for noisy ones."),
-      param(&Params::point_weight, "point_weight", unitless, within(0, 100),
-            "How strongly the surface is drawn to the points themselves; 0 is unscreened Poisson (Kazhdan 2006)."),
-      param(&Params::trim, "trim", metres, within(0, 10),
-            "Triangles further than this from the nearest point are dropped; about three times the points' spacing.")};
+      param<&Params::depth>(
+          count, within(3, 12),
+          "Depth of the octree: the finest cell is the cloud's extent times 1.1 over 2^depth. Each step more costs "
+          "about "
+          "four times the time and memory where points are dense enough."),
+      param<&Params::samples_per_node>(
+          count, within(1, 50),
+          "Least number of points in a cell of the octree: 1 to 5 for clean points, up to 20 for noisy ones."),
+      param<&Params::point_weight>(
+          unitless, within(0, 100),
+          "How strongly the surface is drawn to the points themselves; 0 is unscreened Poisson (Kazhdan 2006)."),
+      param<&Params::trim>(
+          metres, within(0, 10),
+          "Triangles further than this from the nearest point are dropped; about three times the points' spacing.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

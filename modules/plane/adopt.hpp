@@ -24,12 +24,13 @@ struct Adopt {
     double distance = 0;
     double reach = 0.5;
   };
-  static constexpr auto inputs = std::tuple{port(&In::planes, "planes", "Primitives.")};
-  static constexpr auto outputs = std::tuple{port(&Out::planes, "planes", "The same primitives with more inliers.")};
-  static constexpr auto params = std::tuple{
-      param(&Params::distance, "distance", metres, within(0, 10),
-            "Of a point from its plane. 0: three times the noise (the mean residual of the primitives)."),
-      param(&Params::reach, "reach", metres, within(0, 1000), "Of a point beyond the rectangle of its primitive.")};
+  static constexpr auto inputs = std::tuple{port<&In::planes>("Primitives.")};
+  static constexpr auto outputs = std::tuple{port<&Out::planes>("The same primitives with more inliers.")};
+  static constexpr auto params =
+      std::tuple{param<&Params::distance>(
+                     metres, within(0, 10),
+                     "Of a point from its plane. 0: three times the noise (the mean residual of the primitives)."),
+                 param<&Params::reach>(metres, within(0, 1000), "Of a point beyond the rectangle of its primitive.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -34,20 +34,21 @@ struct MergeCoplanar {
     double layer_distance = 0.2;
     double angle = 10;
   };
-  static constexpr auto inputs = std::tuple{port(&In::planes, "planes", "Primitives; normals to the side seen.")};
+  static constexpr auto inputs = std::tuple{port<&In::planes>("Primitives; normals to the side seen.")};
   static constexpr auto outputs =
-      std::tuple{port(&Out::planes, "planes", "Primitives over the same cloud, by falling number of inliers.")};
+      std::tuple{port<&Out::planes>("Primitives over the same cloud, by falling number of inliers.")};
   static constexpr auto params = std::tuple{
-      param(&Params::distance, "distance", metres, within(0, 10),
-            "Largest distance between a primitive and the joint plane, within its bounding rectangle. 0: three times "
-            "the noise (the mean residual of the primitives), at least 5 mm."),
-      param(&Params::sheet_distance, "sheet_distance", metres, within(0, 10),
-            "The same for planes one before the other: less than the thinnest wall."),
-      param(
-          &Params::layer_distance, "layer_distance", metres, within(0, 10),
+      param<&Params::distance>(
+          metres, within(0, 10),
+          "Largest distance between a primitive and the joint plane, within its bounding rectangle. 0: three times "
+          "the noise (the mean residual of the primitives), at least 5 mm."),
+      param<&Params::sheet_distance>(metres, within(0, 10),
+                                     "The same for planes one before the other: less than the thinnest wall."),
+      param<&Params::layer_distance>(
+          metres, within(0, 10),
           "The same for planes whose points stand one before the other: layers of one surface that drift has parted. A "
           "cupboard hides the wall behind it, so it is none."),
-      param(&Params::angle, "angle", degrees, within(0, 45), "Largest angle between the normals of one plane.")};
+      param<&Params::angle>(degrees, within(0, 45), "Largest angle between the normals of one plane.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

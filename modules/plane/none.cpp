@@ -2,6 +2,6 @@
 
 namespace atrium::plane {
 
-None::Out None::run(const In& in, const Params& /*params*/, Context& /*context*/) { return {in.planes}; }
+None::Out None::run(const In& in) { return {in.planes}; }
 
 }  // namespace atrium::plane

@@ -14,11 +14,9 @@ struct None {
   struct Out {
     SharedOutput<PlanePrimitives> planes;
   };
-  struct Params {};
-  static constexpr auto inputs = std::tuple{port(&In::planes, "planes", "Primitives.")};
-  static constexpr auto outputs = std::tuple{port(&Out::planes, "planes", "The same primitives.")};
-  static constexpr auto params = std::tuple{};
-  static Out run(const In& in, const Params& params, Context& context);
+  static constexpr auto inputs = std::tuple{port<&In::planes>("Primitives.")};
+  static constexpr auto outputs = std::tuple{port<&Out::planes>("The same primitives.")};
+  static Out run(const In& in);
 };
 
 }  // namespace atrium::plane

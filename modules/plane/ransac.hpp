@@ -38,26 +38,28 @@ struct Ransac {
     int min_points = 0;
     double probability = 0.01;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points with oriented normals.")};
-  static constexpr auto outputs =
-      std::tuple{port(&Out::planes, "planes",
-                      "Primitives over the same cloud, by falling number of inliers; normals to the side seen.")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points with oriented normals.")};
+  static constexpr auto outputs = std::tuple{
+      port<&Out::planes>("Primitives over the same cloud, by falling number of inliers; normals to the side seen.")};
   static constexpr auto params = std::tuple{
-      param(&Params::max_planes, "max_planes", count, within(0, 1e6),
-            "Stop after this many planes, the largest first (the paper's number of primitives); 0: no limit."),
-      param(&Params::distance, "distance", metres, within(1e-6, 10),
-            "Largest distance of a point from its plane (Schnabel's epsilon): about 2.5 times the noise."),
-      param(&Params::cluster_distance, "cluster_distance", metres, within(0, 10),
-            "Points of a plane nearer to each other than this are connected (Schnabel's beta), wider gaps make two "
-            "planes. "
-            "0: 3 cm, or what the cloud's spacing around the plane wants where that is more."),
-      param(
-          &Params::normal_angle, "normal_angle", degrees, within(1, 89),
+      param<&Params::max_planes>(
+          count, within(0, 1e6),
+          "Stop after this many planes, the largest first (the paper's number of primitives); 0: no limit."),
+      param<&Params::distance>(
+          metres, within(1e-6, 10),
+          "Largest distance of a point from its plane (Schnabel's epsilon): about 2.5 times the noise."),
+      param<&Params::cluster_distance>(
+          metres, within(0, 10),
+          "Points of a plane nearer to each other than this are connected (Schnabel's beta), wider gaps make two "
+          "planes. "
+          "0: 3 cm, or what the cloud's spacing around the plane wants where that is more."),
+      param<&Params::normal_angle>(
+          degrees, within(1, 89),
           "Largest angle between a point's normal and its plane's (Schnabel's alpha); estimated normals want it wide."),
-      param(&Params::min_points, "min_points", count, within(0, 1e9),
-            "Smallest plane. 0: one in 2000 of the points, at least 50."),
-      param(&Params::probability, "probability", ratio, within(1e-6, 0.5),
-            "Probability with which a larger plane may be missed when one is taken, or the search ends.")};
+      param<&Params::min_points>(count, within(0, 1e9), "Smallest plane. 0: one in 2000 of the points, at least 50."),
+      param<&Params::probability>(
+          ratio, within(1e-6, 0.5),
+          "Probability with which a larger plane may be missed when one is taken, or the search ends.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -43,38 +43,41 @@ struct RegionGrowing {
     int min_points = 0;
     std::int64_t passes = 2;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points; normals only turn the planes.")};
-  static constexpr auto outputs =
-      std::tuple{port(&Out::planes, "planes",
-                      "Primitives over the same cloud, by falling number of inliers; normals to the side seen.")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points; normals only turn the planes.")};
+  static constexpr auto outputs = std::tuple{
+      port<&Out::planes>("Primitives over the same cloud, by falling number of inliers; normals to the side seen.")};
   static constexpr auto params = std::tuple{
-      param(&Params::max_planes, "max_planes", count, within(0, 1e6),
-            "Keep this many planes, the largest (the paper's number of primitives); 0: all."),
-      param(
-          &Params::voxel_size, "voxel_size", metres, within(0, 10),
+      param<&Params::max_planes>(count, within(0, 1e6),
+                                 "Keep this many planes, the largest (the paper's number of primitives); 0: all."),
+      param<&Params::voxel_size>(
+          metres, within(0, 10),
           "Edge of the voxels: less than the thinnest wall. 0: min_voxel_size, doubled until half of the points share "
           "their voxel with four others, and until it is four times the noise where `distance` is 0."),
-      param(&Params::min_voxel_size, "min_voxel_size", metres, within(0.001, 10),
-            "Edge of the voxels of dense scans, where voxel_size is 0."),
-      param(&Params::distance, "distance", metres, within(0, 10),
-            "Largest distance of a point from its plane. 0: 2.5 times the noise, which is the median residual around "
-            "flat voxels, but no less than min_distance."),
-      param(&Params::min_distance, "min_distance", metres, within(0, 10),
-            "Least distance where `distance` is 0: what drift and unevenness take even where the noise is small."),
-      param(&Params::cluster_distance, "cluster_distance", metres, within(0, 10),
-            "Points of a plane nearer to each other than this are connected, wider gaps make two planes. 0: 3 cm, or "
-            "what "
-            "the cloud's spacing around the plane wants where that is more."),
-      param(&Params::angle, "angle", degrees, within(1, 89),
-            "Largest angle between a flat voxel's plane and that of the region which takes it."),
-      param(
-          &Params::min_area, "min_area", square_metres, within(0, 1000),
+      param<&Params::min_voxel_size>(metres, within(0.001, 10),
+                                     "Edge of the voxels of dense scans, where voxel_size is 0."),
+      param<&Params::distance>(
+          metres, within(0, 10),
+          "Largest distance of a point from its plane. 0: 2.5 times the noise, which is the median residual around "
+          "flat voxels, but no less than min_distance."),
+      param<&Params::min_distance>(
+          metres, within(0, 10),
+          "Least distance where `distance` is 0: what drift and unevenness take even where the noise is small."),
+      param<&Params::cluster_distance>(
+          metres, within(0, 10),
+          "Points of a plane nearer to each other than this are connected, wider gaps make two planes. 0: 3 cm, or "
+          "what "
+          "the cloud's spacing around the plane wants where that is more."),
+      param<&Params::angle>(degrees, within(1, 89),
+                            "Largest angle between a flat voxel's plane and that of the region which takes it."),
+      param<&Params::min_area>(
+          square_metres, within(0, 1000),
           "Smallest plane, counted in squares as wide as its points' spacing: the size of the scene and the scanner's "
           "distance do not matter."),
-      param(&Params::min_points, "min_points", count, within(0, 1e9),
-            "Fewest points of a plane. 0: half as many as min_area holds where the scan is sparse, at least 50."),
-      param(
-          &Params::passes, "passes", count, within(1, 100),
+      param<&Params::min_points>(
+          count, within(0, 1e9),
+          "Fewest points of a plane. 0: half as many as min_area holds where the scan is sparse, at least 50."),
+      param<&Params::passes>(
+          count, within(1, 100),
           "How often the points that are left are searched again: both faces of a thin wall stand in the same voxels, "
           "and the second shows once the first is found. Ends when nothing is found.")};
   static Out run(const In& in, const Params& params, Context& context);

@@ -34,13 +34,13 @@ struct RegisterPositions {
     double min_overlap = 0.3;
     std::int64_t max_points = 40000;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points with sensors and sources.")};
-  static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "The same points and sensors, moved.")};
-  static constexpr auto params = std::tuple{
-      param(&Params::max_offset, "max_offset", metres, within(0, 10), "Of two planes of one surface."),
-      param(&Params::max_angle, "max_angle", degrees, within(0, 45), "Between the normals of two such planes."),
-      param(&Params::min_overlap, "min_overlap", ratio, within(0, 1), "Of the smaller plane's rectangle."),
-      param(&Params::max_points, "max_points", count, within(1000, 1e9), "Of a position that planes are sought in.")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points with sensors and sources.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cloud>("The same points and sensors, moved.")};
+  static constexpr auto params =
+      std::tuple{param<&Params::max_offset>(metres, within(0, 10), "Of two planes of one surface."),
+                 param<&Params::max_angle>(degrees, within(0, 45), "Between the normals of two such planes."),
+                 param<&Params::min_overlap>(ratio, within(0, 1), "Of the smaller plane's rectangle."),
+                 param<&Params::max_points>(count, within(1000, 1e9), "Of a position that planes are sought in.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

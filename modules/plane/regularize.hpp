@@ -33,14 +33,15 @@ struct Regularize {
     double distance = 0;
     double angle = 5;
   };
-  static constexpr auto inputs = std::tuple{port(&In::planes, "planes", "Primitives, z up.")};
+  static constexpr auto inputs = std::tuple{port<&In::planes>("Primitives, z up.")};
   static constexpr auto outputs =
-      std::tuple{port(&Out::planes, "planes", "The same primitives with other planes and residuals.")};
+      std::tuple{port<&Out::planes>("The same primitives with other planes and residuals.")};
   static constexpr auto params = std::tuple{
-      param(&Params::distance, "distance", metres, within(0, 10),
-            "By how much a place on a primitive may move. 0: twice the noise (the mean residual of the primitives), at "
-            "least 1 cm."),
-      param(&Params::angle, "angle", degrees, within(0, 45), "By how much a plane may turn.")};
+      param<&Params::distance>(
+          metres, within(0, 10),
+          "By how much a place on a primitive may move. 0: twice the noise (the mean residual of the primitives), at "
+          "least 1 cm."),
+      param<&Params::angle>(degrees, within(0, 45), "By how much a plane may turn.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

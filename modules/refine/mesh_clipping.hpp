@@ -31,14 +31,13 @@ struct MeshClipping {
   struct Params {
     std::int64_t min_points = 50;
   };
-  static constexpr auto inputs =
-      std::tuple{port(&In::meshes, "meshes", "Walls, floors and ceilings."),
-                 port(&In::adjacency, "adjacency", "Their neighbourhood: vertex i is mesh i."),
-                 port(&In::structure, "structure", "The primitives, whose points are counted.")};
+  static constexpr auto inputs = std::tuple{port<&In::meshes>("Walls, floors and ceilings."),
+                                            port<&In::adjacency>("Their neighbourhood: vertex i is mesh i."),
+                                            port<&In::structure>("The primitives, whose points are counted.")};
   static constexpr auto outputs =
-      std::tuple{port(&Out::meshes, "meshes", "Walls, then the pieces of floors and ceilings: convex polygons.")};
-  static constexpr auto params = std::tuple{param(
-      &Params::min_points, "min_points", count, within(0, 1e9),
+      std::tuple{port<&Out::meshes>("Walls, then the pieces of floors and ceilings: convex polygons.")};
+  static constexpr auto params = std::tuple{param<&Params::min_points>(
+      count, within(0, 1e9),
       "A part stays if more than this many points lie in it (the paper's th_clip, 50; its appendix tries 25 and 100). "
       "It depends on the density of the points.")};
   static Out run(const In& in, const Params& params, Context& context);

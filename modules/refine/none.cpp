@@ -2,6 +2,6 @@
 
 namespace atrium::refine {
 
-None::Out None::run(const In& in, const Params& /*params*/, Context& /*context*/) { return {in.meshes}; }
+None::Out None::run(const In& in) { return {in.meshes}; }
 
 }  // namespace atrium::refine

@@ -18,13 +18,10 @@ struct None {
   struct Out {
     SharedOutput<PlaneMeshes> meshes;
   };
-  struct Params {};
   static constexpr auto inputs =
-      std::tuple{port(&In::meshes, "meshes", "Meshes."), port(&In::adjacency, "adjacency", "Not used."),
-                 port(&In::structure, "structure", "Not used.")};
-  static constexpr auto outputs = std::tuple{port(&Out::meshes, "meshes", "The same meshes.")};
-  static constexpr auto params = std::tuple{};
-  static Out run(const In& in, const Params& params, Context& context);
+      std::tuple{port<&In::meshes>("Meshes."), port<&In::adjacency>("Not used."), port<&In::structure>("Not used.")};
+  static constexpr auto outputs = std::tuple{port<&Out::meshes>("The same meshes.")};
+  static Out run(const In& in);
 };
 
 }  // namespace atrium::refine

@@ -60,7 +60,7 @@ void translate(PlaneMesh& mesh, const Line& line, double max_separation) {
 
 }  // namespace
 
-VertexTranslation::Out VertexTranslation::run(const In& in, const Params& params, Context& /*context*/) {
+VertexTranslation::Out VertexTranslation::run(const In& in, const Params& params) {
   check_matches(*in.adjacency, *in.meshes);
   const auto& meshes = in.meshes->meshes;
   Out out{*in.meshes, 0};

@@ -34,20 +34,19 @@ struct VertexTranslation {
     double max_separation = 0.5;
     double parallel_tolerance = 0.001;
   };
-  static constexpr auto inputs =
-      std::tuple{port(&In::meshes, "meshes", "Walls, floors and ceilings."),
-                 port(&In::adjacency, "adjacency", "Their neighbourhood: vertex i is mesh i.")};
-  static constexpr auto outputs =
-      std::tuple{port(&Out::meshes, "meshes", "The same meshes in the same order, walls closed."),
-                 port(&Out::moved, "moved", "How many vertices are not where they were.")};
+  static constexpr auto inputs = std::tuple{port<&In::meshes>("Walls, floors and ceilings."),
+                                            port<&In::adjacency>("Their neighbourhood: vertex i is mesh i.")};
+  static constexpr auto outputs = std::tuple{port<&Out::meshes>("The same meshes in the same order, walls closed."),
+                                             port<&Out::moved>("How many vertices are not where they were.")};
   static constexpr auto params =
-      std::tuple{param(&Params::max_separation, "max_separation", metres, within(0, 10),
-                       "No vertex moves further than this (the paper's th_sep in Algorithm 2)."),
-                 param(&Params::parallel_tolerance, "parallel_tolerance", unitless, within(0, 1),
-                       "Walls with |n_i × n_j| below this are parallel and do not meet (the paper's th_parallel); the "
-                       "sine of the angle "
-                       "between them.")};
-  static Out run(const In& in, const Params& params, Context& context);
+      std::tuple{param<&Params::max_separation>(
+                     metres, within(0, 10), "No vertex moves further than this (the paper's th_sep in Algorithm 2)."),
+                 param<&Params::parallel_tolerance>(
+                     unitless, within(0, 1),
+                     "Walls with |n_i × n_j| below this are parallel and do not meet (the paper's th_parallel); the "
+                     "sine of the angle "
+                     "between them.")};
+  static Out run(const In& in, const Params& params);
 };
 
 }  // namespace atrium::refine

@@ -46,24 +46,22 @@ struct Gicp {
     Coarse coarse = Coarse::none;
     std::vector<double> initial;
   };
-  static constexpr auto inputs = std::tuple{port(&In::clouds, "clouds", "Scans, the first gives the frame.")};
-  static constexpr auto outputs =
-      std::tuple{port(&Out::cloud, "cloud", "All points, in the first scan's frame."),
-                 port(&Out::poses, "poses", "Per scan the motion into the first one's frame."),
-                 port(&Out::metrics, "metrics", "Overlap and distances per scan.")};
+  static constexpr auto inputs = std::tuple{port<&In::clouds>("Scans, the first gives the frame.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cloud>("All points, in the first scan's frame."),
+                                             port<&Out::poses>("Per scan the motion into the first one's frame."),
+                                             port<&Out::metrics>("Overlap and distances per scan.")};
   static constexpr auto params = std::tuple{
-      param(&Params::max_correspondence_distance, "max_correspondence_distance", metres, within(0.001, 100),
-            "Points further apart are never taken for the same place."),
-      param(&Params::iterations, "iterations", count, within(1, 10000), "At most so many rounds."),
-      param(&Params::translation_epsilon, "translation_epsilon", metres, within(1e-9, 1),
-            "Ends when a round moves the scan by less."),
-      param(&Params::rotation_epsilon, "rotation_epsilon", degrees, within(1e-6, 10),
-            "Ends when a round turns the scan by less."),
-      param(&Params::voxel, "voxel", metres, within(0.001, 10), "Spacing of the points that are registered."),
-      param(&Params::coarse, "coarse", {{"none", Coarse::none}, {"yaw_search", Coarse::yaw_search}},
-            "How start poses are searched for."),
-      param(&Params::initial, "initial", unitless, unbounded,
-            "Start poses: x y z (m) and yaw (deg about z) for each scan after the first. Empty: all stand alike.")};
+      param<&Params::max_correspondence_distance>(metres, within(0.001, 100),
+                                                  "Points further apart are never taken for the same place."),
+      param<&Params::iterations>(count, within(1, 10000), "At most so many rounds."),
+      param<&Params::translation_epsilon>(metres, within(1e-9, 1), "Ends when a round moves the scan by less."),
+      param<&Params::rotation_epsilon>(degrees, within(1e-6, 10), "Ends when a round turns the scan by less."),
+      param<&Params::voxel>(metres, within(0.001, 10), "Spacing of the points that are registered."),
+      param<&Params::coarse>({{"none", Coarse::none}, {"yaw_search", Coarse::yaw_search}},
+                             "How start poses are searched for."),
+      param<&Params::initial>(
+          unitless, unbounded,
+          "Start poses: x y z (m) and yaw (deg about z) for each scan after the first. Empty: all stand alike.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

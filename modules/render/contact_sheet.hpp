@@ -31,17 +31,16 @@ struct ContactSheet {
     std::vector<std::string> captions;
   };
 
-  static constexpr auto inputs = std::tuple{port(&In::pictures, "pictures", "What to show, in this order.")};
-  static constexpr auto outputs = std::tuple{port(&Out::sheet, "sheet", "The sheet, one picture.")};
-  static constexpr auto params =
-      std::tuple{param(&Params::path, "path", "PNG file, NAME.png."),
-                 param(&Params::columns, "columns", count, within(1, 20), "Pictures in a row."),
-                 param(&Params::cell_width, "cell_width", count, within(64, 4096),
-                       "Pixels across for each picture; its height follows from the first picture's shape."),
-                 param(&Params::caption_size, "caption_size", ratio, within(0.01, 0.2),
-                       "Size of the captions' letters as a share of a picture's width."),
-                 param(&Params::captions, "captions",
-                       "One text per picture, in their order; fewer are filled up with the pictures' own captions.")};
+  static constexpr auto inputs = std::tuple{port<&In::pictures>("What to show, in this order.")};
+  static constexpr auto outputs = std::tuple{port<&Out::sheet>("The sheet, one picture.")};
+  static constexpr auto params = std::tuple{
+      param<&Params::path>("PNG file, NAME.png."), param<&Params::columns>(count, within(1, 20), "Pictures in a row."),
+      param<&Params::cell_width>(count, within(64, 4096),
+                                 "Pixels across for each picture; its height follows from the first picture's shape."),
+      param<&Params::caption_size>(ratio, within(0.01, 0.2),
+                                   "Size of the captions' letters as a share of a picture's width."),
+      param<&Params::captions>(
+          "One text per picture, in their order; fewer are filled up with the pictures' own captions.")};
 
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -8,7 +8,7 @@
 
 namespace atrium::render {
 
-ReadPictures::Out ReadPictures::run(const In& /*in*/, const Params& params, Context& context) {
+ReadPictures::Out ReadPictures::run(const Params& params, Context& context) {
   if (params.files.empty()) throw Error("no picture is named", "set `files` to a list of PNG files");
   if (params.captions.size() > params.files.size())
     throw Error(fmt::format("there are {} captions for {} files", params.captions.size(), params.files.size()));

@@ -17,7 +17,6 @@ struct ReadPictures {
   static constexpr std::string_view summary = "Reads PNG files for a contact sheet.";
   static constexpr bool cached = false;  // it looks for the files itself
 
-  struct In {};
   struct Out {
     Pictures pictures;
   };
@@ -26,13 +25,12 @@ struct ReadPictures {
     std::vector<std::string> captions;
   };
 
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::pictures, "pictures", "In the order of the files.")};
-  static constexpr auto params = std::tuple{
-      param(&Params::files, "files", "PNG files; relative paths are meant from the working folder."),
-      param(&Params::captions, "captions", "One text per file; those that lack one get the name of the file.")};
+  static constexpr auto outputs = std::tuple{port<&Out::pictures>("In the order of the files.")};
+  static constexpr auto params =
+      std::tuple{param<&Params::files>("PNG files; relative paths are meant from the working folder."),
+                 param<&Params::captions>("One text per file; those that lack one get the name of the file.")};
 
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& params, Context& context);
 };
 
 }  // namespace atrium::render

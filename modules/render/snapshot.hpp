@@ -68,71 +68,69 @@ struct Snapshot {
   };
 
   static constexpr auto inputs = std::tuple{
-      port(&In::cloud, "cloud", "Points."),
-      port(&In::planes, "planes", "Planar primitives: their points, a colour each, the others grey."),
-      port(&In::structure, "structure", "The points of walls, floors and ceilings, coloured by class."),
-      port(&In::meshes, "meshes", "Planar meshes, coloured by class."),
-      port(&In::adjacency, "adjacency", "Drawn as lines between the centres of `meshes`, which it needs."),
-      port(&In::mesh, "mesh", "A structural or scene mesh, coloured by class."),
-      port(&In::textures, "textures",
-           "Images for the faces of `mesh`, in its frame; the others keep their class's colour."),
-      port(&In::objects, "objects", "A mesh of furniture."),
-      port(&In::truth, "truth", "Ground truth of a simulated scene, coloured by class."),
-      port(&In::reference, "reference",
-           "What `colour_by: distance` measures to, in the cloud's frame. It is not drawn."),
-      port(&In::transform, "transform", "From the inputs' frame to z up; without it they are taken to be z up.")};
-  static constexpr auto outputs = std::tuple{port(&Out::pictures, "pictures", "One per view, for a contact sheet.")};
+      port<&In::cloud>("Points."),
+      port<&In::planes>("Planar primitives: their points, a colour each, the others grey."),
+      port<&In::structure>("The points of walls, floors and ceilings, coloured by class."),
+      port<&In::meshes>("Planar meshes, coloured by class."),
+      port<&In::adjacency>("Drawn as lines between the centres of `meshes`, which it needs."),
+      port<&In::mesh>("A structural or scene mesh, coloured by class."),
+      port<&In::textures>("Images for the faces of `mesh`, in its frame; the others keep their class's colour."),
+      port<&In::objects>("A mesh of furniture."),
+      port<&In::truth>("Ground truth of a simulated scene, coloured by class."),
+      port<&In::reference>("What `colour_by: distance` measures to, in the cloud's frame. It is not drawn."),
+      port<&In::transform>("From the inputs' frame to z up; without it they are taken to be z up.")};
+  static constexpr auto outputs = std::tuple{port<&Out::pictures>("One per view, for a contact sheet.")};
   static constexpr auto params = std::tuple{
-      param(&Params::path, "path", "PNG file; with several views the view's name is added before the extension."),
-      param(
-          &Params::views, "views",
+      param<&Params::path>("PNG file; with several views the view's name is added before the extension."),
+      param<&Params::views>(
           "Any of isometric, top, front, back, left, right, inside. Walls that face away are "
           "left out, so that rooms are seen from outside. Inside stands at eye height (1.6 m above the lowest floor), "
           "over floor, away from what is in the way, and looks to where most floor is seen."),
-      param(&Params::eye, "eye", metres, unbounded,
-            "Explicit camera: where it stands, [x, y, z] in the z-up frame, in "
-            "place of `views`; needs `target`."),
-      param(&Params::target, "target", metres, unbounded, "Explicit camera: what it looks at, [x, y, z]."),
-      param(&Params::width, "width", count, within(16, 8192), "Pixels across."),
-      param(&Params::height, "height", count, within(16, 8192), "Pixels down."),
-      param(&Params::colour_by, "colour_by",
-            {{"automatic", ColourBy::automatic},
-             {"colour", ColourBy::colour},
-             {"height", ColourBy::height},
-             {"label", ColourBy::label},
-             {"distance", ColourBy::distance},
-             {"signed_distance", ColourBy::signed_distance},
-             {"plain", ColourBy::plain}},
-            "Colour of the cloud; automatic: distance if `reference` is wired, else its own colours where it has them, "
-            "else height. A signed distance is positive on the side that the reference's faces look to. Heights and "
-            "distances come with a colour bar."),
-      param(
-          &Params::colour_map, "colour_map",
+      param<&Params::eye>(metres, unbounded,
+                          "Explicit camera: where it stands, [x, y, z] in the z-up frame, in "
+                          "place of `views`; needs `target`."),
+      param<&Params::target>(metres, unbounded, "Explicit camera: what it looks at, [x, y, z]."),
+      param<&Params::width>(count, within(16, 8192), "Pixels across."),
+      param<&Params::height>(count, within(16, 8192), "Pixels down."),
+      param<&Params::colour_by>(
+          {{"automatic", ColourBy::automatic},
+           {"colour", ColourBy::colour},
+           {"height", ColourBy::height},
+           {"label", ColourBy::label},
+           {"distance", ColourBy::distance},
+           {"signed_distance", ColourBy::signed_distance},
+           {"plain", ColourBy::plain}},
+          "Colour of the cloud; automatic: distance if `reference` is wired, else its own colours where it has them, "
+          "else height. A signed distance is positive on the side that the reference's faces look to. Heights and "
+          "distances come with a colour bar."),
+      param<&Params::colour_map>(
           "A file of share/colormaps by its name: viridis, cividis, cool_warm, okabe_ito; empty: viridis for heights, "
           "cividis for distances, cool_warm for those with a sign, okabe_ito for labels. All are made for the "
           "colour-blind."),
-      param(&Params::scale_end, "scale_end", metres, within(0, 1000),
-            "Where the scale of distances ends; larger ones have its last colour. 0: the next round length (1, 2 or 5 "
-            "times "
-            "a power of ten) above the 95th percentile of the points that are drawn."),
-      param(&Params::point_size, "point_size", unitless, within(0, 50),
-            "Pixels; 0: as large as the points are apart on the surfaces, within 1/480 and 1/120 of the picture's "
-            "height."),
-      param(&Params::perspective, "perspective", "Perspective instead of parallel projection."),
-      param(&Params::ceilings, "ceilings",
-            "Draw ceilings too, and every face from both sides: the building as it is seen from outside."),
-      param(
-          &Params::cut_below_top, "cut_below_top", metres, within(0, 100),
+      param<&Params::scale_end>(
+          metres, within(0, 1000),
+          "Where the scale of distances ends; larger ones have its last colour. 0: the next round length (1, 2 or 5 "
+          "times "
+          "a power of ten) above the 95th percentile of the points that are drawn."),
+      param<&Params::point_size>(
+          unitless, within(0, 50),
+          "Pixels; 0: as large as the points are apart on the surfaces, within 1/480 and 1/120 of the picture's "
+          "height."),
+      param<&Params::perspective>("Perspective instead of parallel projection."),
+      param<&Params::ceilings>(
+          "Draw ceilings too, and every face from both sides: the building as it is seen from outside."),
+      param<&Params::cut_below_top>(
+          metres, within(0, 100),
           "Points nearer than this to the top of the cloud are left out in the isometric and top views, so that rooms "
           "are looked into; not with `ceilings`. A cloud that is lower than twice this is drawn whole."),
-      param(&Params::edges, "edges", "Draw the outlines of faces."),
-      param(&Params::legend, "legend", "Name the classes' colours."),
-      param(&Params::scale_bar, "scale_bar",
-            "A bar of known length (parallel projection only), and the bar that explains colours."),
-      param(&Params::title, "title", "Text at the top."),
-      param(&Params::text_size, "text_size", ratio, within(0.005, 0.1),
-            "Height of a line of text as a share of the picture's height: larger for pictures that will be shrunk."),
-      param(&Params::background, "background", {{"white", Background::white}, {"black", Background::black}}, "")};
+      param<&Params::edges>("Draw the outlines of faces."),
+      param<&Params::legend>("Name the classes' colours."),
+      param<&Params::scale_bar>("A bar of known length (parallel projection only), and the bar that explains colours."),
+      param<&Params::title>("Text at the top."),
+      param<&Params::text_size>(
+          ratio, within(0.005, 0.1),
+          "Height of a line of text as a share of the picture's height: larger for pictures that will be shrunk."),
+      param<&Params::background>({{"white", Background::white}, {"black", Background::black}}, "")};
 
   static Out run(const In& in, const Params& params, Context& context);
 };

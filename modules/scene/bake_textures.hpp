@@ -40,18 +40,18 @@ struct BakeTextures {
     std::int64_t max_side = 4096;
     std::int64_t max_pixels = 32'000'000;
   };
-  static constexpr auto inputs = std::tuple{
-      port(&In::cloud, "cloud", "The coloured scan, as dense as it is."),
-      port(&In::mesh, "mesh", "The structure: triangles with class and primitive, as scene.merge gives them.")};
-  static constexpr auto outputs = std::tuple{port(&Out::textures, "textures", "Images, by ascending primitive.")};
-  static constexpr auto params =
-      std::tuple{param(&Params::resolution, "resolution", metres, within(0.001, 1), "Side of a pixel."),
-                 param(&Params::distance, "distance", metres, within(0.001, 0.5),
-                       "Points further from the plane do not colour it."),
-                 param(&Params::max_side, "max_side", count, within(16, 16384),
-                       "Most pixels along a side of an image; a larger face gets larger pixels, with a warning."),
-                 param(&Params::max_pixels, "max_pixels", count, within(1000, 1e9),
-                       "Most pixels of all images together; above, all get larger pixels, with a warning.")};
+  static constexpr auto inputs =
+      std::tuple{port<&In::cloud>("The coloured scan, as dense as it is."),
+                 port<&In::mesh>("The structure: triangles with class and primitive, as scene.merge gives them.")};
+  static constexpr auto outputs = std::tuple{port<&Out::textures>("Images, by ascending primitive.")};
+  static constexpr auto params = std::tuple{
+      param<&Params::resolution>(metres, within(0.001, 1), "Side of a pixel."),
+      param<&Params::distance>(metres, within(0.001, 0.5), "Points further from the plane do not colour it."),
+      param<&Params::max_side>(
+          count, within(16, 16384),
+          "Most pixels along a side of an image; a larger face gets larger pixels, with a warning."),
+      param<&Params::max_pixels>(count, within(1000, 1e9),
+                                 "Most pixels of all images together; above, all get larger pixels, with a warning.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

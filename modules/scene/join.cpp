@@ -53,7 +53,7 @@ Mesh open_above(const Mesh& mesh) {
 
 }  // namespace
 
-Join::Out Join::run(const In& in, const Params& /*params*/, Context& /*context*/) {
+Join::Out Join::run(const In& in) {
   check_structure(*in.structure);
   Mesh structure = *in.structure;
   const bool colours = !structure.colours.empty() || (in.objects && !in.objects->colours.empty());

@@ -24,17 +24,13 @@ struct Join {
     Mesh scene;
     Mesh scene_without_ceiling;
   };
-  struct Params {};
-  static constexpr auto inputs =
-      std::tuple{port(&In::structure, "structure", "Walls, floors and ceilings, with classes."),
-                 port(&In::objects, "objects", "What is not structure."),
-                 port(&In::transform, "transform", "From the structure's frame to that of the objects.")};
+  static constexpr auto inputs = std::tuple{port<&In::structure>("Walls, floors and ceilings, with classes."),
+                                            port<&In::objects>("What is not structure."),
+                                            port<&In::transform>("From the structure's frame to that of the objects.")};
   static constexpr auto outputs = std::tuple{
-      port(&Out::objects, "objects", "The objects, in the structure's frame."),
-      port(&Out::scene, "scene", "Structure and objects."),
-      port(&Out::scene_without_ceiling, "scene_without_ceiling", "The same without ceilings, to look into.")};
-  static constexpr auto params = std::tuple{};
-  static Out run(const In& in, const Params& params, Context& context);
+      port<&Out::objects>("The objects, in the structure's frame."), port<&Out::scene>("Structure and objects."),
+      port<&Out::scene_without_ceiling>("The same without ceilings, to look into.")};
+  static Out run(const In& in);
 };
 
 }  // namespace atrium::scene

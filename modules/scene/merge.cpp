@@ -28,7 +28,7 @@ Mesh structure_of(const PlaneMeshes& meshes, bool colours, bool ceilings) {
 
 }  // namespace
 
-Merge::Out Merge::run(const In& in, const Params& params, Context& /*context*/) {
+Merge::Out Merge::run(const In& in, const Params& params) {
   const Transform back = params.frame == Frame::input && in.transform ? inverse(*in.transform) : Transform{};
   const bool colours = params.class_colours || (in.objects && !in.objects->colours.empty());
   Out out;

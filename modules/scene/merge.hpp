@@ -33,19 +33,18 @@ struct Merge {
     Frame frame = Frame::input;
     bool class_colours = true;
   };
-  static constexpr auto inputs =
-      std::tuple{port(&In::meshes, "meshes", "Walls, floors and ceilings: convex polygons."),
-                 port(&In::objects, "objects", "What is not structure, in the same frame."),
-                 port(&In::transform, "transform", "From the input frame to that of the meshes.")};
-  static constexpr auto outputs = std::tuple{
-      port(&Out::structure, "structure", "Walls, floors and ceilings."), port(&Out::objects, "objects", "The objects."),
-      port(&Out::scene, "scene", "Structure and objects."),
-      port(&Out::scene_without_ceiling, "scene_without_ceiling", "The same without ceilings, to look into.")};
+  static constexpr auto inputs = std::tuple{port<&In::meshes>("Walls, floors and ceilings: convex polygons."),
+                                            port<&In::objects>("What is not structure, in the same frame."),
+                                            port<&In::transform>("From the input frame to that of the meshes.")};
+  static constexpr auto outputs =
+      std::tuple{port<&Out::structure>("Walls, floors and ceilings."), port<&Out::objects>("The objects."),
+                 port<&Out::scene>("Structure and objects."),
+                 port<&Out::scene_without_ceiling>("The same without ceilings, to look into.")};
   static constexpr auto params = std::tuple{
-      param(&Params::frame, "frame", {{"input", Frame::input}, {"aligned", Frame::aligned}},
-            "input: where the scan was, to the millimetre; aligned: z up, walls along x and y."),
-      param(&Params::class_colours, "class_colours", "Colour the structure's vertices by class, for viewers.")};
-  static Out run(const In& in, const Params& params, Context& context);
+      param<&Params::frame>({{"input", Frame::input}, {"aligned", Frame::aligned}},
+                            "input: where the scan was, to the millimetre; aligned: z up, walls along x and y."),
+      param<&Params::class_colours>("Colour the structure's vertices by class, for viewers.")};
+  static Out run(const In& in, const Params& params);
 };
 
 }  // namespace atrium::scene

@@ -2,7 +2,7 @@
 
 namespace atrium::scene {
 
-Unclassify::Out Unclassify::run(const In& in, const Params& /*params*/, Context& /*context*/) {
+Unclassify::Out Unclassify::run(const In& in) {
   Out out{*in.mesh};
   out.mesh.classes.clear();
   out.mesh.storeys.clear();

@@ -16,13 +16,11 @@ struct Unclassify {
   struct Out {
     Mesh mesh;
   };
-  struct Params {};
 
-  static constexpr auto inputs = std::tuple{port(&In::mesh, "mesh", "Any mesh.")};
-  static constexpr auto outputs = std::tuple{port(&Out::mesh, "mesh", "Its vertices, colours and triangles.")};
-  static constexpr auto params = std::tuple{};
+  static constexpr auto inputs = std::tuple{port<&In::mesh>("Any mesh.")};
+  static constexpr auto outputs = std::tuple{port<&Out::mesh>("Its vertices, colours and triangles.")};
 
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const In& in);
 };
 
 }  // namespace atrium::scene

@@ -54,42 +54,49 @@ struct Structure {
     double min_wall_contact = 0.2;
     Sides sides = Sides::normals;
   };
-  static constexpr auto inputs = std::tuple{port(&In::planes, "planes", "Primitives, z up.")};
+  static constexpr auto inputs = std::tuple{port<&In::planes>("Primitives, z up.")};
   static constexpr auto outputs =
-      std::tuple{port(&Out::structure, "structure", "The primitives with class and storey."),
-                 port(&Out::objects, "objects", "The points of no structural primitive, in the order of the cloud."),
-                 port(&Out::report, "report",
-                      "How many planes, walls, floors, ceilings, storeys, planes between the angle "
-                      "limits, and object points.")};
+      std::tuple{port<&Out::structure>("The primitives with class and storey."),
+                 port<&Out::objects>("The points of no structural primitive, in the order of the cloud."),
+                 port<&Out::report>("How many planes, walls, floors, ceilings, storeys, planes between the angle "
+                                    "limits, and object points.")};
   static constexpr auto params = std::tuple{
-      param(&Params::horizontal_angle, "horizontal_angle", degrees, within(0, 90),
-            "A plane is horizontal if its normal is less than this from the vertical (paper: θ(n, z) < 20 degrees)."),
-      param(&Params::slanted_ceiling_angle, "slanted_ceiling_angle", degrees, within(0, 90),
-            "A down-facing plane is a slanted ceiling if its normal is less than this from the vertical (paper: θ ≥ 20 "
-            "degrees "
-            "is a hyperparameter); not above horizontal_angle: no slanted ceilings. 60 degrees suits attics."),
-      param(
-          &Params::wall_angle, "wall_angle", degrees, within(0, 90),
+      param<&Params::horizontal_angle>(
+          degrees, within(0, 90),
+          "A plane is horizontal if its normal is less than this from the vertical (paper: θ(n, z) < 20 degrees)."),
+      param<&Params::slanted_ceiling_angle>(
+          degrees, within(0, 90),
+          "A down-facing plane is a slanted ceiling if its normal is less than this from the vertical (paper: θ ≥ 20 "
+          "degrees "
+          "is a hyperparameter); not above horizontal_angle: no slanted ceilings. 60 degrees suits attics."),
+      param<&Params::wall_angle>(
+          degrees, within(0, 90),
           "A plane can be a wall if its normal is further than this from the vertical (paper: θ(n, z) > 85 degrees)."),
-      param(&Params::min_wall_height, "min_wall_height", metres, within(0, 100),
-            "A wall's points reach over more than this vertically (paper: h > 1.5 m)."),
-      param(&Params::ceiling_share, "ceiling_share", ratio, within(0, 1),
-            "Least height of a ceiling over the main floor, as a share of the main ceiling's (paper: 0.7 h_max)."),
-      param(&Params::floor_share, "floor_share", ratio, within(0, 1),
-            "Least depth of a floor under the main ceiling, as a share of the main floor's (paper: 0.9 h_max)."),
-      param(&Params::storey_share, "storey_share", ratio, within(0, 1),
-            "In scenes of several storeys, least number of points of a floor or ceiling as a share of those of the "
-            "largest "
-            "horizontal plane (paper: 10 %)."),
-      param(&Params::min_storey_height, "min_storey_height", metres, within(0, 100),
-            "A floor and a ceiling nearer to each other than this do not belong to one room; not in the paper."),
-      param(&Params::min_wall_contact, "min_wall_contact", ratio, within(0, 1),
-            "Least share of the walls' length that stands on a floor or reaches a ceiling, for there to be a room; not "
-            "in the paper."),
-      param(&Params::sides, "sides", {{"normals", Sides::normals}, {"position", Sides::position}},
-            "normals: the planes' normals tell floors (up) from ceilings (down); position: the upper half of the "
-            "horizontal "
-            "planes are ceilings, for primitives without usable normals in scenes of one storey.")};
+      param<&Params::min_wall_height>(metres, within(0, 100),
+                                      "A wall's points reach over more than this vertically (paper: h > 1.5 m)."),
+      param<&Params::ceiling_share>(
+          ratio, within(0, 1),
+          "Least height of a ceiling over the main floor, as a share of the main ceiling's (paper: 0.7 h_max)."),
+      param<&Params::floor_share>(
+          ratio, within(0, 1),
+          "Least depth of a floor under the main ceiling, as a share of the main floor's (paper: 0.9 h_max)."),
+      param<&Params::storey_share>(
+          ratio, within(0, 1),
+          "In scenes of several storeys, least number of points of a floor or ceiling as a share of those of the "
+          "largest "
+          "horizontal plane (paper: 10 %)."),
+      param<&Params::min_storey_height>(
+          metres, within(0, 100),
+          "A floor and a ceiling nearer to each other than this do not belong to one room; not in the paper."),
+      param<&Params::min_wall_contact>(
+          ratio, within(0, 1),
+          "Least share of the walls' length that stands on a floor or reaches a ceiling, for there to be a room; not "
+          "in the paper."),
+      param<&Params::sides>(
+          {{"normals", Sides::normals}, {"position", Sides::position}},
+          "normals: the planes' normals tell floors (up) from ceilings (down); position: the upper half of the "
+          "horizontal "
+          "planes are ceilings, for primitives without usable normals in scenes of one storey.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -107,7 +107,7 @@ void pierce_roof(Building& b, int face, const Section& s, double x, double roof)
 
 }  // namespace
 
-Attic::Out Attic::run(const In& /*in*/, const Params& p, Context& context) {
+Attic::Out Attic::run(const Params& p, Context& context) {
   const double slope = std::tan(p.slope * std::numbers::pi / 180), ridge = p.knee_height + slope * p.depth / 2;
   if (ridge < 2.25)
     throw Error("the ridge is only " + std::to_string(ridge) + " m above the floor",

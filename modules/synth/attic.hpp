@@ -13,7 +13,6 @@ struct Attic {
   static constexpr std::string_view type = "synth.attic";
   static constexpr std::string_view summary = "A furnished attic with slanted ceilings, with exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -28,20 +27,19 @@ struct Attic {
     bool dormer = true;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The attic: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The attic: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::width, "width", metres, within(7, 30), "Inner size along the ridge (x), inner wall included."),
-      param(&Params::depth, "depth", metres, within(5, 20), "Inner size across (y)."),
-      param(&Params::knee_height, "knee_height", metres, within(0.3, 1.8), "Height of the walls below the slopes."),
-      param(&Params::slope, "slope", degrees, within(25, 60), "Of the roof against the horizontal."),
-      param(&Params::collar_height, "collar_height", metres, within(2.3, 20), "Floor to the flat part of the ceiling."),
+      param<&Params::width>(metres, within(7, 30), "Inner size along the ridge (x), inner wall included."),
+      param<&Params::depth>(metres, within(5, 20), "Inner size across (y)."),
+      param<&Params::knee_height>(metres, within(0.3, 1.8), "Height of the walls below the slopes."),
+      param<&Params::slope>(degrees, within(25, 60), "Of the roof against the horizontal."),
+      param<&Params::collar_height>(metres, within(2.3, 20), "Floor to the flat part of the ceiling."),
       inner_wall_param<Params>(),
-      param(&Params::roof, "roof", metres, within(0.02, 1), "Depth of the windows' reveals."),
-      param(&Params::dormer, "dormer", "Whether the west room has a dormer."),
+      param<&Params::roof>(metres, within(0.02, 1), "Depth of the windows' reveals."),
+      param<&Params::dormer>("Whether the west room has a dormer."),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& p, Context& context);
 };
 
 }  // namespace atrium::synth

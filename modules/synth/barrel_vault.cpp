@@ -9,7 +9,7 @@
 
 namespace atrium::synth {
 
-BarrelVault::Out BarrelVault::run(const In& /*in*/, const Params& p, Context& context) {
+BarrelVault::Out BarrelVault::run(const Params& p, Context& context) {
   constexpr double flat_depth = 3.5, flat_height = 2.7;
   const double w = p.width, d = p.depth, t = p.inner_wall, r = w / 2;
   Building b;

@@ -13,7 +13,6 @@ struct BarrelVault {
   static constexpr std::string_view summary =
       "A room under a barrel vault and a flat room beside it, with exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -26,18 +25,17 @@ struct BarrelVault {
     double outer_wall = 0.4;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The rooms: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The rooms: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::width, "width", metres, within(3, 12), "Width of the vaulted room, twice the radius."),
-      param(&Params::depth, "depth", metres, within(4, 30), "Its length."),
-      param(&Params::springing, "springing", metres, within(1, 4), "Where the vault begins, above the floor."),
-      param(&Params::strips, "strips", count, within(4, 200), "Planes of the vault."),
+      param<&Params::width>(metres, within(3, 12), "Width of the vaulted room, twice the radius."),
+      param<&Params::depth>(metres, within(4, 30), "Its length."),
+      param<&Params::springing>(metres, within(1, 4), "Where the vault begins, above the floor."),
+      param<&Params::strips>(count, within(4, 200), "Planes of the vault."),
       inner_wall_param<Params>(),
       outer_wall_param<Params>(),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& p, Context& context);
 };
 
 }  // namespace atrium::synth

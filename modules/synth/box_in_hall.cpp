@@ -6,7 +6,7 @@
 
 namespace atrium::synth {
 
-BoxInHall::Out BoxInHall::run(const In& /*in*/, const Params& p, Context& context) {
+BoxInHall::Out BoxInHall::run(const Params& p, Context& context) {
   constexpr double side = 3, wing = 4, wing_height = 2.6, wall = 0.2;
   const double w = p.width, d = p.depth, t = p.inner_wall, x = 0.55 * w, y = 0.35 * d;
   Building b;

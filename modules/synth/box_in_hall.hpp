@@ -13,7 +13,6 @@ struct BoxInHall {
   static constexpr std::string_view summary =
       "A high hall with a room-sized box in it and a low wing beside it, with exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -26,18 +25,17 @@ struct BoxInHall {
     double outer_wall = 0.3;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The hall: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The hall: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::width, "width", metres, within(8, 40), "Width of the hall along x."),
-      param(&Params::depth, "depth", metres, within(7, 40), "Depth along y."),
-      param(&Params::ceiling_height, "ceiling_height", metres, within(3.5, 12), "Height of the hall."),
-      param(&Params::box_height, "box_height", metres, within(2.25, 3), "Height of the box, roof included."),
+      param<&Params::width>(metres, within(8, 40), "Width of the hall along x."),
+      param<&Params::depth>(metres, within(7, 40), "Depth along y."),
+      param<&Params::ceiling_height>(metres, within(3.5, 12), "Height of the hall."),
+      param<&Params::box_height>(metres, within(2.25, 3), "Height of the box, roof included."),
       inner_wall_param<Params>(),
       outer_wall_param<Params>(),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& p, Context& context);
 };
 
 }  // namespace atrium::synth

@@ -5,7 +5,7 @@
 
 namespace atrium::synth {
 
-Flat::Out Flat::run(const In& /*in*/, const Params& p, Context& context) {
+Flat::Out Flat::run(const Params& p, Context& context) {
   const double w = p.width, d = p.depth, t = p.inner_wall, h = p.ceiling_height;
   const double xs = 0.56 * w, left = 0.58 * d, right = 0.47 * d;  // the rooms' inner edges
   Building b;

@@ -14,7 +14,6 @@ struct Flat {
   static constexpr std::string_view type = "synth.flat";
   static constexpr std::string_view summary = "A furnished flat of four rooms with exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -32,26 +31,27 @@ struct Flat {
     bool door_leaves = false;
     bool mirror = false;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The flat: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The flat: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::width, "width", metres, within(7, 30), "Inner size along x, inner walls included."),
-      param(&Params::depth, "depth", metres, within(6, 30), "Inner size along y."),
-      param(&Params::ceiling_height, "ceiling_height", metres, within(2.4, 6), "Floor to ceiling in the living room."),
-      param(&Params::ceiling_step, "ceiling_step", metres, within(0, 0.15),
-            "How much higher the kitchen's and lower the bedroom's ceiling is."),
+      param<&Params::width>(metres, within(7, 30), "Inner size along x, inner walls included."),
+      param<&Params::depth>(metres, within(6, 30), "Inner size along y."),
+      param<&Params::ceiling_height>(metres, within(2.4, 6), "Floor to ceiling in the living room."),
+      param<&Params::ceiling_step>(metres, within(0, 0.15),
+                                   "How much higher the kitchen's and lower the bedroom's ceiling is."),
       inner_wall_param<Params>(),
       outer_wall_param<Params>(),
-      param(&Params::built_in, "built_in", metres, within(0, 10),
-            "Length of a wardrobe, 0.6 m deep and up to the ceiling, along the bedroom's wall to the study; 0: none."),
+      param<&Params::built_in>(
+          metres, within(0, 10),
+          "Length of a wardrobe, 0.6 m deep and up to the ceiling, along the bedroom's wall to the study; 0: none."),
       furniture_param<Params>(),
-      param(&Params::shelves, "shelves", ratio, within(0, 1),
-            "Share of the walls that shelves and cupboards of almost the room's height cover, where they can."),
-      param(&Params::curtains, "curtains", "Whether curtains hang before the windows."),
-      param(&Params::door_leaves, "door_leaves", "Whether the doors between rooms have leaves, which stand open."),
-      param(&Params::mirror, "mirror", "Whether a large mirror hangs in the bedroom."),
+      param<&Params::shelves>(
+          ratio, within(0, 1),
+          "Share of the walls that shelves and cupboards of almost the room's height cover, where they can."),
+      param<&Params::curtains>("Whether curtains hang before the windows."),
+      param<&Params::door_leaves>("Whether the doors between rooms have leaves, which stand open."),
+      param<&Params::mirror>("Whether a large mirror hangs in the bedroom."),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& p, Context& context);
 };
 
 }  // namespace atrium::synth

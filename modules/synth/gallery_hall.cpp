@@ -8,7 +8,7 @@
 
 namespace atrium::synth {
 
-GalleryHall::Out GalleryHall::run(const In& /*in*/, const Params& p, Context& context) {
+GalleryHall::Out GalleryHall::run(const Params& p, Context& context) {
   constexpr double gallery = 2, wing = 4, flight = 1;
   constexpr Colour rail{70, 72, 76};
   const double w = p.width, d = p.depth, t = p.inner_wall, h = p.ceiling_height, up = h + p.slab, edge = w - gallery;

@@ -14,7 +14,6 @@ struct GalleryHall {
   static constexpr std::string_view summary =
       "A double-height hall with a gallery beside two storeys, with exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -27,19 +26,17 @@ struct GalleryHall {
     double outer_wall = 0.3;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The house: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The house: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::width, "width", metres, within(6.5, 20), "Width of the hall along x."),
-      param(&Params::depth, "depth", metres, within(5, 20), "Depth along y."),
-      param(&Params::ceiling_height, "ceiling_height", metres, within(2.3, 3), "Floor to ceiling of each storey."),
-      param(&Params::slab, "slab", metres, within(0.1, 0.6),
-            "Thickness of the gallery and of the slab between the storeys."),
+      param<&Params::width>(metres, within(6.5, 20), "Width of the hall along x."),
+      param<&Params::depth>(metres, within(5, 20), "Depth along y."),
+      param<&Params::ceiling_height>(metres, within(2.3, 3), "Floor to ceiling of each storey."),
+      param<&Params::slab>(metres, within(0.1, 0.6), "Thickness of the gallery and of the slab between the storeys."),
       inner_wall_param<Params>(),
       outer_wall_param<Params>(),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& p, Context& context);
 };
 
 }  // namespace atrium::synth

@@ -10,7 +10,7 @@
 
 namespace atrium::synth {
 
-LeaningWalls::Out LeaningWalls::run(const In& /*in*/, const Params& p, Context& context) {
+LeaningWalls::Out LeaningWalls::run(const Params& p, Context& context) {
   const double w = p.width, d = p.depth, t = p.inner_wall, h = p.ceiling_height, xs = 0.58 * w;
   const double south_in = h * std::tan(p.lean * std::numbers::pi / 180),
                north_out = h * std::tan(p.lean / 2 * std::numbers::pi / 180);

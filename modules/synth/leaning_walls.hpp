@@ -12,7 +12,6 @@ struct LeaningWalls {
   static constexpr std::string_view type = "synth.leaning_walls";
   static constexpr std::string_view summary = "Two rooms with leaning walls, with exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -25,18 +24,17 @@ struct LeaningWalls {
     double outer_wall = 0.3;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The rooms: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The rooms: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::width, "width", metres, within(6, 20), "Inner size of the floor along x."),
-      param(&Params::depth, "depth", metres, within(4, 12), "Inner size of the floor along y."),
-      param(&Params::ceiling_height, "ceiling_height", metres, within(2.3, 4), "Floor to ceiling."),
-      param(&Params::lean, "lean", degrees, within(0, 15), "How far the south walls lean off the vertical."),
+      param<&Params::width>(metres, within(6, 20), "Inner size of the floor along x."),
+      param<&Params::depth>(metres, within(4, 12), "Inner size of the floor along y."),
+      param<&Params::ceiling_height>(metres, within(2.3, 4), "Floor to ceiling."),
+      param<&Params::lean>(degrees, within(0, 15), "How far the south walls lean off the vertical."),
       inner_wall_param<Params>(),
       outer_wall_param<Params>(),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& p, Context& context);
 };
 
 }  // namespace atrium::synth

@@ -83,8 +83,6 @@ class Floor {
 
 }  // namespace
 
-Office::Out Office::run(const In& /*in*/, const Params& params, Context& context) {
-  return {Floor(params, context.random()).build()};
-}
+Office::Out Office::run(const Params& params, Context& context) { return {Floor(params, context.random()).build()}; }
 
 }  // namespace atrium::synth

@@ -15,7 +15,6 @@ struct Office {
   static constexpr std::string_view summary =
       "A furnished office floor, a corridor and seven rooms, with exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -29,20 +28,18 @@ struct Office {
     double outer_wall = 0.3;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The office: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The office: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::width, "width", metres, within(18, 80), "Inner size along x, inner walls included."),
-      param(&Params::depth, "depth", metres, within(9, 40), "Inner size along y, inner walls included."),
-      param(&Params::corridor, "corridor", metres, within(1.2, 3), "Width of the corridor."),
-      param(&Params::ceiling_height, "ceiling_height", metres, within(2.6, 6), "Floor to ceiling in the offices."),
-      param(&Params::corridor_drop, "corridor_drop", metres, within(0, 0.4),
-            "How much lower the ceiling of the corridor is."),
+      param<&Params::width>(metres, within(18, 80), "Inner size along x, inner walls included."),
+      param<&Params::depth>(metres, within(9, 40), "Inner size along y, inner walls included."),
+      param<&Params::corridor>(metres, within(1.2, 3), "Width of the corridor."),
+      param<&Params::ceiling_height>(metres, within(2.6, 6), "Floor to ceiling in the offices."),
+      param<&Params::corridor_drop>(metres, within(0, 0.4), "How much lower the ceiling of the corridor is."),
       inner_wall_param<Params>(),
       outer_wall_param<Params>(),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& params, Context& context);
 };
 
 }  // namespace atrium::synth

@@ -53,7 +53,7 @@ void add_bay(Ring2& ring, std::size_t side, double width, double depth) {
 
 }  // namespace
 
-OldFlat::Out OldFlat::run(const In& /*in*/, const Params& p, Context& context) {
+OldFlat::Out OldFlat::run(const Params& p, Context& context) {
   Random random = context.random();
   const SkewedPlan plan(p, random);
   Building b;

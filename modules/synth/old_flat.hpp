@@ -13,7 +13,6 @@ struct OldFlat {
   static constexpr std::string_view summary =
       "An old flat without a right angle: bay, chimney breasts, niches, thick walls, with exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -24,16 +23,15 @@ struct OldFlat {
     double skew = 2.0;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The flat: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The flat: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::width, "width", metres, within(11, 20), "Size along x."),
-      param(&Params::depth, "depth", metres, within(8.5, 15), "Size along y."),
-      param(&Params::ceiling_height, "ceiling_height", metres, within(2.6, 4.5), "Floor to ceiling, within 6 cm."),
-      param(&Params::skew, "skew", degrees, within(0, 3), "How far walls are off the square, about."),
+      param<&Params::width>(metres, within(11, 20), "Size along x."),
+      param<&Params::depth>(metres, within(8.5, 15), "Size along y."),
+      param<&Params::ceiling_height>(metres, within(2.6, 4.5), "Floor to ceiling, within 6 cm."),
+      param<&Params::skew>(degrees, within(0, 3), "How far walls are off the square, about."),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& p, Context& context);
 };
 
 }  // namespace atrium::synth

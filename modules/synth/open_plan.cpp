@@ -46,7 +46,7 @@ void add_screens(Building& b, int hall, const OpenPlan::Params& p) {
 
 }  // namespace
 
-OpenPlan::Out OpenPlan::run(const In& /*in*/, const Params& p, Context& context) {
+OpenPlan::Out OpenPlan::run(const Params& p, Context& context) {
   const double w = p.width, d = p.depth, t = p.inner_wall, h = p.ceiling_height, mx = 5, my = 4;
   Building b;
   const int hall =

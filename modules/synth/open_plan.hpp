@@ -13,7 +13,6 @@ struct OpenPlan {
   static constexpr std::string_view summary =
       "An open office floor with columns, screens and windows all around, with exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -26,18 +25,17 @@ struct OpenPlan {
     double outer_wall = 0.3;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The floor: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The floor: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::width, "width", metres, within(15, 80), "Inner size along x."),
-      param(&Params::depth, "depth", metres, within(12, 60), "Inner size along y."),
-      param(&Params::ceiling_height, "ceiling_height", metres, within(2.6, 5), "Floor to ceiling."),
-      param(&Params::grid, "grid", metres, within(4, 12), "Distance of the columns."),
+      param<&Params::width>(metres, within(15, 80), "Inner size along x."),
+      param<&Params::depth>(metres, within(12, 60), "Inner size along y."),
+      param<&Params::ceiling_height>(metres, within(2.6, 5), "Floor to ceiling."),
+      param<&Params::grid>(metres, within(4, 12), "Distance of the columns."),
       inner_wall_param<Params>(),
       outer_wall_param<Params>(),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& p, Context& context);
 };
 
 }  // namespace atrium::synth

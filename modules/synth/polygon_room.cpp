@@ -8,7 +8,7 @@
 
 namespace atrium::synth {
 
-PolygonRoom::Out PolygonRoom::run(const In& /*in*/, const Params& p, Context& context) {
+PolygonRoom::Out PolygonRoom::run(const Params& p, Context& context) {
   const auto n = static_cast<int>(p.corners);
   Ring2 outline;
   for (int i = 0; i < n; ++i) {

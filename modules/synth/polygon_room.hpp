@@ -13,7 +13,6 @@ struct PolygonRoom {
   static constexpr std::string_view summary =
       "A furnished room with a regular polygon for its floor, with exact truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -26,18 +25,17 @@ struct PolygonRoom {
     double outer_wall = 0.3;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The room: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The room: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::corners, "corners", count, within(3, 24), "How many; each wall must be wide enough for the door."),
-      param(&Params::radius, "radius", metres, within(1.5, 40), "Of the circle through the corners."),
-      param(&Params::ceiling_height, "ceiling_height", metres, within(2.3, 10), "Floor to ceiling."),
-      param(&Params::door, "door", "Whether it has a door."),
-      param(&Params::window, "window", "Whether it has a window."),
+      param<&Params::corners>(count, within(3, 24), "How many; each wall must be wide enough for the door."),
+      param<&Params::radius>(metres, within(1.5, 40), "Of the circle through the corners."),
+      param<&Params::ceiling_height>(metres, within(2.3, 10), "Floor to ceiling."),
+      param<&Params::door>("Whether it has a door."),
+      param<&Params::window>("Whether it has a window."),
       outer_wall_param<Params>(),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& p, Context& context);
 };
 
 }  // namespace atrium::synth

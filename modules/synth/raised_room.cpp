@@ -6,7 +6,7 @@
 
 namespace atrium::synth {
 
-RaisedRoom::Out RaisedRoom::run(const In& /*in*/, const Params& p, Context& context) {
+RaisedRoom::Out RaisedRoom::run(const Params& p, Context& context) {
   constexpr double raised_width = 4, raised_depth = 3.6;
   constexpr Colour step_colour{150, 116, 80};
   const double w = p.width, d = p.depth, t = p.inner_wall, h = p.ceiling_height;

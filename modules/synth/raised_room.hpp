@@ -12,7 +12,6 @@ struct RaisedRoom {
   static constexpr std::string_view type = "synth.raised_room";
   static constexpr std::string_view summary = "Two rooms whose floors differ by a few steps, with exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -25,19 +24,17 @@ struct RaisedRoom {
     double outer_wall = 0.3;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The rooms: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The rooms: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::width, "width", metres, within(5, 20), "Width of the lower room along x."),
-      param(&Params::depth, "depth", metres, within(4, 20), "Depth of the lower room along y."),
-      param(&Params::ceiling_height, "ceiling_height", metres, within(2.6, 5),
-            "Height of both ceilings above the lower floor."),
-      param(&Params::rise, "rise", metres, within(0.1, 0.6), "From the lower floor to the higher one."),
+      param<&Params::width>(metres, within(5, 20), "Width of the lower room along x."),
+      param<&Params::depth>(metres, within(4, 20), "Depth of the lower room along y."),
+      param<&Params::ceiling_height>(metres, within(2.6, 5), "Height of both ceilings above the lower floor."),
+      param<&Params::rise>(metres, within(0.1, 0.6), "From the lower floor to the higher one."),
       inner_wall_param<Params>(),
       outer_wall_param<Params>(),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& p, Context& context);
 };
 
 }  // namespace atrium::synth

@@ -6,7 +6,7 @@
 
 namespace atrium::synth {
 
-Room::Out Room::run(const In& /*in*/, const Params& p, Context& context) {
+Room::Out Room::run(const Params& p, Context& context) {
   constexpr double least = 1.2;  // what the notch leaves: room for the door, and to walk
   const double w = p.width, d = p.depth;
   Ring2 outline{{0, 0}, {w, 0}, {w, d}, {0, d}};

@@ -12,7 +12,6 @@ struct Room {
   static constexpr std::string_view type = "synth.room";
   static constexpr std::string_view summary = "A furnished L-shaped room with exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -26,20 +25,20 @@ struct Room {
     double wardrobe = 0;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The room: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The room: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::width, "width", metres, within(3, 50), "Along x."),
-      param(&Params::depth, "depth", metres, within(3, 50), "Along y."),
-      param(&Params::notch_width, "notch_width", metres, within(0, 48), "Along x; 0: the room is a rectangle."),
-      param(&Params::notch_depth, "notch_depth", metres, within(0, 48), "Along y; 0: the room is a rectangle."),
-      param(&Params::ceiling_height, "ceiling_height", metres, within(2.3, 10), "Floor to ceiling."),
+      param<&Params::width>(metres, within(3, 50), "Along x."),
+      param<&Params::depth>(metres, within(3, 50), "Along y."),
+      param<&Params::notch_width>(metres, within(0, 48), "Along x; 0: the room is a rectangle."),
+      param<&Params::notch_depth>(metres, within(0, 48), "Along y; 0: the room is a rectangle."),
+      param<&Params::ceiling_height>(metres, within(2.3, 10), "Floor to ceiling."),
       outer_wall_param<Params>(),
-      param(&Params::wardrobe, "wardrobe", metres, within(0, 40),
-            "Length of a wardrobe, 0.6 m deep and 2.2 m high (or up to the ceiling), along the north wall; 0: none."),
+      param<&Params::wardrobe>(
+          metres, within(0, 40),
+          "Length of a wardrobe, 0.6 m deep and 2.2 m high (or up to the ceiling), along the north wall; 0: none."),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& p, Context& context);
 };
 
 }  // namespace atrium::synth

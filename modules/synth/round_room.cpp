@@ -8,7 +8,7 @@
 
 namespace atrium::synth {
 
-RoundRoom::Out RoundRoom::run(const In& /*in*/, const Params& p, Context& context) {
+RoundRoom::Out RoundRoom::run(const Params& p, Context& context) {
   const double w = p.width, d = p.depth, radius = d / 2;
   const int strips = static_cast<int>(std::ceil(std::numbers::pi / (2 * std::acos(1 - p.sagitta / radius))));
   Ring2 outline{{0, 0}, {w, 0}};

@@ -16,7 +16,6 @@ struct RoundRoom {
   static constexpr std::string_view type = "synth.round_room";
   static constexpr std::string_view summary = "A furnished room with a half-round wall, with exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -28,17 +27,16 @@ struct RoundRoom {
     double outer_wall = 0.3;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The room: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The room: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::width, "width", metres, within(2, 50), "Of the rectangle, along x."),
-      param(&Params::depth, "depth", metres, within(3, 50), "Along y: the half circle's diameter."),
-      param(&Params::sagitta, "sagitta", metres, within(1e-6, 0.1), "How far the strips may leave the circle."),
-      param(&Params::ceiling_height, "ceiling_height", metres, within(2.3, 10), "Floor to ceiling."),
+      param<&Params::width>(metres, within(2, 50), "Of the rectangle, along x."),
+      param<&Params::depth>(metres, within(3, 50), "Along y: the half circle's diameter."),
+      param<&Params::sagitta>(metres, within(1e-6, 0.1), "How far the strips may leave the circle."),
+      param<&Params::ceiling_height>(metres, within(2.3, 10), "Floor to ceiling."),
       outer_wall_param<Params>(),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& p, Context& context);
 };
 
 }  // namespace atrium::synth

@@ -82,55 +82,54 @@ struct Scan {
     bool ceilings = true;
     bool shuffle = false;
   };
-  static constexpr auto inputs = std::tuple{port(&In::scene, "scene", "What is looked at.")};
+  static constexpr auto inputs = std::tuple{port<&In::scene>("What is looked at.")};
   static constexpr auto outputs =
-      std::tuple{port(&Out::cloud, "cloud", "The scan."),
-                 port(&Out::truth, "truth", "The scene's ground truth in the scan's frame."),
-                 port(&Out::mesh, "mesh", "The true structural faces as triangles, in the scan's frame.")};
+      std::tuple{port<&Out::cloud>("The scan."), port<&Out::truth>("The scene's ground truth in the scan's frame."),
+                 port<&Out::mesh>("The true structural faces as triangles, in the scan's frame.")};
   static constexpr auto params = std::tuple{
-      param(&Params::points, "points", count, within(1, 100e6), "Number of points, outliers included; exact."),
-      param(&Params::pattern, "pattern",
-            {{"spherical", Pattern::spherical},
-             {"uniform_area", Pattern::uniform_area},
-             {"hand_held", Pattern::hand_held}},
-            "How points are spread: as by a scanner on a tripod, evenly over what can be seen, or from a walk."),
-      param(&Params::positions, "positions", count, within(1, 100),
-            "Scanner positions per room, as far as it has room (and as many on stairs); a walk passes them."),
-      param(&Params::most_positions, "most_positions", count, within(0, 65535),
-            "Scanner positions in all, the first ones of the scene; 0: no limit."),
-      param(&Params::lowest_elevation, "lowest_elevation", degrees, within(-90, 60),
-            "Spherical pattern: below this elevation the scanner is blind."),
-      param(&Params::max_range, "max_range", metres, within(0.5, 1000), "Surfaces further away give no points."),
-      param(&Params::noise, "noise", metres, within(0, 1), "Standard deviation of the range."),
-      param(&Params::angular_noise, "angular_noise", degrees, within(0, 10),
-            "Standard deviation of the direction, on each of two axes."),
-      param(&Params::beam, "beam", degrees, within(0, 5), "Opening angle of the beam."),
-      param(&Params::mixed_pixels, "mixed_pixels", ratio, within(0, 1),
-            "Share of the rays across a depth edge that measure a range between its two sides."),
-      param(&Params::outliers, "outliers", ratio, within(0, 1), "Share of points that lie on no surface."),
-      param(&Params::drift, "drift", metres, within(0, 10),
-            "Tripod: standard deviation, per coordinate, of each position's misplacement but the first's; walk: the "
-            "misplacement at its end."),
-      param(&Params::drift_angle, "drift_angle", degrees, within(0, 45),
-            "Tripod: standard deviation, per axis, of each position's misorientation but the first's; walk: the turn "
-            "about the vertical at its end."),
-      param(&Params::outside, "outside", "Whether rays that leave the building meet an outside."),
-      param(&Params::windows, "windows",
-            {{"void", Windows::no_return}, {"glazed", Windows::glazed}, {"open", Windows::open}},
-            "Whether windows give no points at all, are panes that most rays pass, or are open."),
-      param(&Params::glass, "glass", ratio, within(0, 1), "Share of the rays that a pane throws back."),
-      param(&Params::people, "people", count, within(0, 100), "How many people walk about."),
-      param(&Params::yaw, "yaw", degrees, within(-360, 360), "Turn of the scene about its vertical."),
-      param(&Params::tilt, "tilt", degrees, within(-180, 180),
-            "Then turn about the x axis: how far z is off the vertical."),
-      param(&Params::offset, "offset", metres, within(-1e8, 1e8), "Then shift: x, y, z (a georeferenced scan, say)."),
-      param(&Params::sensors, "sensors", "Whether the cloud says for each point where its scanner stood."),
-      param(&Params::normals, "normals", "Whether the cloud has the surfaces' exact normals, towards the scanner."),
-      param(&Params::random_signs, "random_signs",
-            "Whether each normal points to a random side, as normals that nobody oriented do."),
-      param(&Params::ceilings, "ceilings",
-            "Whether ceilings are scanned; without, their rays give no points, and the truth keeps them."),
-      param(&Params::shuffle, "shuffle", "Whether the same points come in random order."),
+      param<&Params::points>(count, within(1, 100e6), "Number of points, outliers included; exact."),
+      param<&Params::pattern>(
+          {{"spherical", Pattern::spherical},
+           {"uniform_area", Pattern::uniform_area},
+           {"hand_held", Pattern::hand_held}},
+          "How points are spread: as by a scanner on a tripod, evenly over what can be seen, or from a walk."),
+      param<&Params::positions>(
+          count, within(1, 100),
+          "Scanner positions per room, as far as it has room (and as many on stairs); a walk passes them."),
+      param<&Params::most_positions>(count, within(0, 65535),
+                                     "Scanner positions in all, the first ones of the scene; 0: no limit."),
+      param<&Params::lowest_elevation>(degrees, within(-90, 60),
+                                       "Spherical pattern: below this elevation the scanner is blind."),
+      param<&Params::max_range>(metres, within(0.5, 1000), "Surfaces further away give no points."),
+      param<&Params::noise>(metres, within(0, 1), "Standard deviation of the range."),
+      param<&Params::angular_noise>(degrees, within(0, 10),
+                                    "Standard deviation of the direction, on each of two axes."),
+      param<&Params::beam>(degrees, within(0, 5), "Opening angle of the beam."),
+      param<&Params::mixed_pixels>(ratio, within(0, 1),
+                                   "Share of the rays across a depth edge that measure a range between its two sides."),
+      param<&Params::outliers>(ratio, within(0, 1), "Share of points that lie on no surface."),
+      param<&Params::drift>(
+          metres, within(0, 10),
+          "Tripod: standard deviation, per coordinate, of each position's misplacement but the first's; walk: the "
+          "misplacement at its end."),
+      param<&Params::drift_angle>(
+          degrees, within(0, 45),
+          "Tripod: standard deviation, per axis, of each position's misorientation but the first's; walk: the turn "
+          "about the vertical at its end."),
+      param<&Params::outside>("Whether rays that leave the building meet an outside."),
+      param<&Params::windows>({{"void", Windows::no_return}, {"glazed", Windows::glazed}, {"open", Windows::open}},
+                              "Whether windows give no points at all, are panes that most rays pass, or are open."),
+      param<&Params::glass>(ratio, within(0, 1), "Share of the rays that a pane throws back."),
+      param<&Params::people>(count, within(0, 100), "How many people walk about."),
+      param<&Params::yaw>(degrees, within(-360, 360), "Turn of the scene about its vertical."),
+      param<&Params::tilt>(degrees, within(-180, 180), "Then turn about the x axis: how far z is off the vertical."),
+      param<&Params::offset>(metres, within(-1e8, 1e8), "Then shift: x, y, z (a georeferenced scan, say)."),
+      param<&Params::sensors>("Whether the cloud says for each point where its scanner stood."),
+      param<&Params::normals>("Whether the cloud has the surfaces' exact normals, towards the scanner."),
+      param<&Params::random_signs>("Whether each normal points to a random side, as normals that nobody oriented do."),
+      param<&Params::ceilings>(
+          "Whether ceilings are scanned; without, their rays give no points, and the truth keeps them."),
+      param<&Params::shuffle>("Whether the same points come in random order."),
   };
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -10,7 +10,7 @@
 
 namespace atrium::synth {
 
-SectorRooms::Out SectorRooms::run(const In& /*in*/, const Params& p, Context& context) {
+SectorRooms::Out SectorRooms::run(const Params& p, Context& context) {
   constexpr int planes = 4;  // of each room's round walls
   const int rooms = static_cast<int>(p.rooms), n = planes * rooms;
   if (p.outer_radius < p.radius + 2)

@@ -12,7 +12,6 @@ struct SectorRooms {
   static constexpr std::string_view type = "synth.sector_rooms";
   static constexpr std::string_view summary = "Sector-shaped rooms around a round hall, with exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -25,18 +24,17 @@ struct SectorRooms {
     double outer_wall = 0.3;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The floor: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The floor: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::radius, "radius", metres, within(3, 15), "Of the hall, to its corners."),
-      param(&Params::outer_radius, "outer_radius", metres, within(6, 30), "Of the outer wall, to its corners."),
-      param(&Params::ceiling_height, "ceiling_height", metres, within(2.4, 5), "Floor to ceiling."),
-      param(&Params::rooms, "rooms", count, within(3, 16), "Around the hall."),
+      param<&Params::radius>(metres, within(3, 15), "Of the hall, to its corners."),
+      param<&Params::outer_radius>(metres, within(6, 30), "Of the outer wall, to its corners."),
+      param<&Params::ceiling_height>(metres, within(2.4, 5), "Floor to ceiling."),
+      param<&Params::rooms>(count, within(3, 16), "Around the hall."),
       inner_wall_param<Params>(),
       outer_wall_param<Params>(),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& p, Context& context);
 };
 
 }  // namespace atrium::synth

@@ -10,7 +10,7 @@
 
 namespace atrium::synth {
 
-SplitLevel::Out SplitLevel::run(const In& /*in*/, const Params& p, Context& context) {
+SplitLevel::Out SplitLevel::run(const Params& p, Context& context) {
   constexpr double room_width = 5, upper_depth = 2.6, flight = 1.05;
   constexpr Colour landing_colour{150, 116, 80};
   const double w = p.width, d = p.depth, t = p.inner_wall, h = p.ceiling_height, up = h + p.slab, half = up / 2;

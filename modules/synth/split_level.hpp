@@ -14,7 +14,6 @@ struct SplitLevel {
   static constexpr std::string_view summary =
       "Rooms on three levels, half a storey apart, around a stairwell, with exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -27,18 +26,17 @@ struct SplitLevel {
     double outer_wall = 0.3;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The house: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The house: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::width, "width", metres, within(2.2, 4), "Width of the stairwell."),
-      param(&Params::depth, "depth", metres, within(4.4, 8), "Depth of the stairwell and of the rooms beside it."),
-      param(&Params::ceiling_height, "ceiling_height", metres, within(2.3, 3), "Floor to ceiling of the three rooms."),
-      param(&Params::slab, "slab", metres, within(0.1, 0.6), "From the lower room to the upper one."),
+      param<&Params::width>(metres, within(2.2, 4), "Width of the stairwell."),
+      param<&Params::depth>(metres, within(4.4, 8), "Depth of the stairwell and of the rooms beside it."),
+      param<&Params::ceiling_height>(metres, within(2.3, 3), "Floor to ceiling of the three rooms."),
+      param<&Params::slab>(metres, within(0.1, 0.6), "From the lower room to the upper one."),
       inner_wall_param<Params>(),
       outer_wall_param<Params>(),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& p, Context& context);
 };
 
 }  // namespace atrium::synth

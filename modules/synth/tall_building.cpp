@@ -82,7 +82,7 @@ class Tower {
 
 }  // namespace
 
-TallBuilding::Out TallBuilding::run(const In& /*in*/, const Params& params, Context& context) {
+TallBuilding::Out TallBuilding::run(const Params& params, Context& context) {
   return {Tower(params, context.random()).build()};
 }
 

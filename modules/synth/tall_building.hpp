@@ -12,7 +12,6 @@ struct TallBuilding {
   static constexpr std::string_view type = "synth.tall_building";
   static constexpr std::string_view summary = "Three storeys of 17 rooms, with stairs and exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -27,20 +26,19 @@ struct TallBuilding {
     double outer_wall = 0.3;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The building: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The building: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::storeys, "storeys", count, within(1, 20), "How many."),
-      param(&Params::rooms, "rooms", count, within(1, 40), "On each side of the corridor."),
-      param(&Params::width, "width", metres, within(14, 200), "Inner size along x."),
-      param(&Params::room_depth, "room_depth", metres, within(2.5, 12), "Of the rooms along y."),
-      param(&Params::ceiling_height, "ceiling_height", metres, within(2.4, 3.2), "Floor to ceiling."),
-      param(&Params::slab, "slab", metres, within(0.1, 0.8), "From ceiling to the next floor."),
+      param<&Params::storeys>(count, within(1, 20), "How many."),
+      param<&Params::rooms>(count, within(1, 40), "On each side of the corridor."),
+      param<&Params::width>(metres, within(14, 200), "Inner size along x."),
+      param<&Params::room_depth>(metres, within(2.5, 12), "Of the rooms along y."),
+      param<&Params::ceiling_height>(metres, within(2.4, 3.2), "Floor to ceiling."),
+      param<&Params::slab>(metres, within(0.1, 0.8), "From ceiling to the next floor."),
       inner_wall_param<Params>(),
       outer_wall_param<Params>(),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& params, Context& context);
 };
 
 }  // namespace atrium::synth

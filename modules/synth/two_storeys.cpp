@@ -51,7 +51,7 @@ void build_stairs(Building& b, int hall, int landing, const Stairs& s, double st
 
 }  // namespace
 
-TwoStoreys::Out TwoStoreys::run(const In& /*in*/, const Params& p, Context& context) {
+TwoStoreys::Out TwoStoreys::run(const Params& p, Context& context) {
   const double w = p.width, d = p.depth, t = p.inner_wall, h = p.ceiling_height, up = h + p.slab;
   const double xs = 0.34 * w, lower = 0.56 * d, upper = 0.48 * d;  // inner edges of hall, living room, bedroom
   const Stairs s = stairs_for(up, h);

@@ -13,7 +13,6 @@ struct TwoStoreys {
   static constexpr std::string_view summary =
       "A furnished house of two storeys with a staircase, with exact ground truth.";
   static constexpr bool random = true;
-  struct In {};
   struct Out {
     SimulatedScene scene;
   };
@@ -26,18 +25,17 @@ struct TwoStoreys {
     double outer_wall = 0.3;
     double furniture = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::scene, "scene", "The house: z up, metres.")};
+  static constexpr auto outputs = std::tuple{port<&Out::scene>("The house: z up, metres.")};
   static constexpr auto params = std::tuple{
-      param(&Params::width, "width", metres, within(7.5, 30), "Inner size along x, inner walls included."),
-      param(&Params::depth, "depth", metres, within(7, 30), "Inner size along y."),
-      param(&Params::ceiling_height, "ceiling_height", metres, within(2.3, 3), "Floor to ceiling of both storeys."),
-      param(&Params::slab, "slab", metres, within(0.05, 0.6), "From the lower ceiling to the upper floor."),
+      param<&Params::width>(metres, within(7.5, 30), "Inner size along x, inner walls included."),
+      param<&Params::depth>(metres, within(7, 30), "Inner size along y."),
+      param<&Params::ceiling_height>(metres, within(2.3, 3), "Floor to ceiling of both storeys."),
+      param<&Params::slab>(metres, within(0.05, 0.6), "From the lower ceiling to the upper floor."),
       inner_wall_param<Params>(),
       outer_wall_param<Params>(),
       furniture_param<Params>(),
   };
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& p, Context& context);
 };
 
 }  // namespace atrium::synth

@@ -42,7 +42,7 @@ const Case& scanned(std::int64_t points) {
   auto [place, added] = cases.try_emplace(points);
   if (added) {
     Context context;
-    const auto scene = input(synth::Flat::run({}, {}, context).scene);
+    const auto scene = input(synth::Flat::run({}, context).scene);
     synth::Scan::Params params;
     params.points = points;
     params.outside = false;
@@ -70,13 +70,13 @@ void structure(benchmark::State& state) {
 void faces(benchmark::State& state) {
   const Case& c = scanned(100000);
   Context context;
-  for (auto _ : state) benchmark::DoNotOptimize(metric::Faces::run({c.detailed}, {}, context));
+  for (auto _ : state) benchmark::DoNotOptimize(metric::Faces::run({c.detailed}));
 }
 
 // Everything that reflects in the flat, cut into about as many triangles as asked for.
 void validity(benchmark::State& state) {
   Context context;
-  const auto scene = synth::Flat::run({}, {}, context).scene;
+  const auto scene = synth::Flat::run({}, context).scene;
   Mesh mesh = detailed_mesh(scene, static_cast<std::size_t>(state.range(0)));
   mesh.triangles.resize(static_cast<std::size_t>(state.range(0)));
   const auto cut = input(std::move(mesh));

@@ -25,7 +25,7 @@ void bake(benchmark::State& state) {
   params.points = state.range(0);
   params.outside = false;
   params.windows = synth::Scan::Windows::open;
-  const auto scan = synth::Scan::run({input(synth::Flat::run({}, {}, context).scene)}, params, context);
+  const auto scan = synth::Scan::run({input(synth::Flat::run({}, context).scene)}, params, context);
   const auto cloud = input(scan.cloud);
   const auto mesh = input(scan.mesh);
   for (auto _ : state) benchmark::DoNotOptimize(scene::BakeTextures::run({cloud, mesh}, {}, context));

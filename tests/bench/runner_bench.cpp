@@ -7,7 +7,7 @@
 
 namespace {
 
-using atrium::Edge;
+using atrium::Source;
 
 struct Add {
   static constexpr std::string_view type = "bench.add";
@@ -22,11 +22,10 @@ struct Add {
     std::int64_t add = 1;
     double scale = 1;
   };
-  static constexpr auto inputs = std::tuple{atrium::port(&In::terms, "terms", "")};
-  static constexpr auto outputs = std::tuple{atrium::port(&Out::sum, "sum", "")};
-  static constexpr auto params =
-      std::tuple{atrium::param(&Params::add, "add", atrium::count, atrium::unbounded, ""),
-                 atrium::param(&Params::scale, "scale", atrium::ratio, atrium::unbounded, "")};
+  static constexpr auto inputs = std::tuple{atrium::port<&In::terms>("")};
+  static constexpr auto outputs = std::tuple{atrium::port<&Out::sum>("")};
+  static constexpr auto params = std::tuple{atrium::param<&Params::add>(atrium::count, atrium::unbounded, ""),
+                                            atrium::param<&Params::scale>(atrium::ratio, atrium::unbounded, "")};
   static Out run(const In& in, const Params& params, atrium::Context& /*context*/) {
     Out out{params.add};
     for (const auto& t : in.terms) out.sum += *t;
@@ -38,20 +37,20 @@ using Builder = atrium::test::PipelineBuilder;
 
 void chain(Builder& builder, std::size_t nodes) {
   std::size_t last = builder.add<Add>("n0");
-  while (builder.pipeline().nodes.size() < nodes)
+  while (atrium::node_count(builder.pipeline()) < nodes)
     last = builder.add<Add>("n" + std::to_string(last + 1), {{{last, 0}}});
 }
 void fan(Builder& builder, std::size_t nodes) {
   const std::size_t root = builder.add<Add>("root");
-  std::vector<Edge> ends;
-  while (builder.pipeline().nodes.size() + 1 < nodes)
+  std::vector<Source> ends;
+  while (atrium::node_count(builder.pipeline()) + 1 < nodes)
     ends.push_back({builder.add<Add>("n" + std::to_string(ends.size()), {{{root, 0}}}), 0});
   builder.add<Add>("join", {ends});
 }
 void layers(Builder& builder, std::size_t nodes) {
   constexpr std::size_t width = 10;
   for (std::size_t i = 0; i < nodes; ++i) {
-    std::vector<Edge> below;
+    std::vector<Source> below;
     if (i >= width) below = {{i - width, 0}, {i / width * width - 1 - i % width, 0}};
     builder.add<Add>("n" + std::to_string(i), {below});
   }

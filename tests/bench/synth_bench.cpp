@@ -10,12 +10,12 @@ using atrium::synth::Scan;
 
 void flat(benchmark::State& state) {
   atrium::Context context;
-  for (auto _ : state) benchmark::DoNotOptimize(Flat::run({}, {}, context));
+  for (auto _ : state) benchmark::DoNotOptimize(Flat::run({}, context));
 }
 
 void scan(benchmark::State& state, Scan::Pattern pattern) {
   atrium::Context context;
-  const auto scene = atrium::input(Flat::run({}, {}, context).scene);
+  const auto scene = atrium::input(Flat::run({}, context).scene);
   Scan::Params params;
   params.points = state.range(0);
   params.pattern = pattern;

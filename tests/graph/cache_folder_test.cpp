@@ -111,7 +111,7 @@ TEST(CacheUpkeep, SaysThatAnotherProcessIsAtIt) {
   const TemporaryFolder folder;
   const CachePlaces places{folder.path()};
   make_cache_folder(places);
-  const int other = ::open(folder.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int other = ::open((folder / ".atrium-lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   ASSERT_EQ(::flock(other, LOCK_EX | LOCK_NB), 0);
   EXPECT_FALSE(collect_garbage(places, 0));
   ::close(other);

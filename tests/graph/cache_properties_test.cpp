@@ -30,7 +30,7 @@ struct Plan {
   PipelineBuilder build() const {
     PipelineBuilder builder;
     for (std::size_t n = 0; n < adds.size(); ++n) {
-      std::vector<Edge> edges;
+      std::vector<Source> edges;
       for (const auto t : terms[n]) edges.push_back({t, 0});
       builder.add<Sum>("n" + std::to_string(n), {edges});
       builder.set("add", adds[n]);
@@ -215,7 +215,7 @@ RC_GTEST_PROP(CacheProperties, AFailureWithACacheSkipsItsDescendantsAndNothingEl
   for (std::size_t n = 0; n < plan.adds.size(); ++n) fails.push_back(*rc::gen::inRange(0, 100) < 15);
   for (int i = 0; i < 2; ++i) {
     PipelineBuilder builder = plan.build();
-    for (std::size_t n = 0; n < fails.size(); ++n) builder.pipeline().nodes[n].params[1] = static_cast<bool>(fails[n]);
+    for (std::size_t n = 0; n < fails.size(); ++n) builder.pipeline()[n].params[1] = static_cast<bool>(fails[n]);
     Cache cache({folder.path(), 1'000'000'000, *rc::gen::arbitrary<bool>()});
     RunOptions options;
     options.threads = *rc::gen::inRange(1, 4);

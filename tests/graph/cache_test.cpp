@@ -34,9 +34,10 @@ class Keys : public testing::Test {
     const LoadResult loaded = load_pipeline(folder / "p.yaml", set, registry);
     EXPECT_TRUE(loaded.errors.empty()) << (loaded.errors.empty() ? "" : to_string(loaded.errors.front()));
     std::map<std::string, std::string> result;
-    for (const auto& node : loaded.pipeline.nodes) {
+    for (const std::size_t n : all_nodes(loaded.pipeline)) {
+      const PipelineNode& node = loaded.pipeline[n];
       std::vector<std::vector<std::string>> inputs;
-      for (const auto& port : node.inputs) inputs.emplace_back(port.size(), "h");
+      for (const auto& port : inputs_of(n, loaded.pipeline)) inputs.emplace_back(port.size(), "h");
       result[node.path] = make_key(node, inputs, "build", files).hex();
     }
     return result;
@@ -150,7 +151,7 @@ TEST(Builds, AreAlsoThoseOfTheFilesThatAPluginReads) {
     FileHashes files;
     return BuildIds(files).of(type);
   };
-  const auto all = [&] { return Registry({folder / "lib/atrium"}).build(); };
+  const auto all = [&] { return build_of_all(Registry({folder / "lib/atrium"})); };
   const std::pair<std::string, std::string> before{nodes(), all()};
   FileHashes files;
   BuildIds builds(files);

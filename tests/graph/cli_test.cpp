@@ -139,7 +139,7 @@ TEST_F(CommandLine, NodesShowsOneType) {
 TEST_F(CommandLine, GraphDrawsNodesAndSubPipelines) {
   const std::string dot = run("graph good.yaml").out;
   EXPECT_NE(dot.find("n1 [label=\"planes\\ntest.find\"];"), std::string::npos);
-  EXPECT_NE(dot.find("n0 -> n1 [label=\"cloud\"];"), std::string::npos);
+  EXPECT_NE(dot.find("n0->n1  [label=\"cloud\"];"), std::string::npos);
   EXPECT_NE(dot.find("subgraph \"cluster_shell\""), std::string::npos);
   const std::string mermaid = run("graph good.yaml --format mermaid").out;
   EXPECT_EQ(mermaid.find("flowchart LR\n"), 0U);

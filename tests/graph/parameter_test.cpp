@@ -130,8 +130,8 @@ TEST(Parameter, DoesNotOverflowTheIntegerOfTheNode) {
     std::int32_t x = 1;
     std::uint32_t y = 1;
   };
-  static constexpr auto x = param(&Params::x, "x", count, unbounded, "");
-  static constexpr auto y = param(&Params::y, "y", count, unbounded, "");
+  static constexpr auto x = param<&Params::x>(count, unbounded, "");
+  static constexpr auto y = param<&Params::y>(count, unbounded, "");
   EXPECT_NE(message(detail::erase(x, Params{}), {{"3e9"}}), "accepted");
   EXPECT_NE(message(detail::erase(y, Params{}), {{"-1"}}), "accepted");
   EXPECT_EQ(message(detail::erase(y, Params{}), {{"4294967295"}}), "accepted");
@@ -161,8 +161,9 @@ TEST(Parameter, SuggestsTheChoiceThatWasMeant) {
 TEST(Parameter, TakesQuotedValuesAsText) {
   EXPECT_EQ(parse_param(of_kind(ParamKind::text, std::string()), raw_of("\"2 cm\"")), ParamValue(std::string("2 cm")));
   EXPECT_EQ(parse_param(of_kind(ParamKind::text, std::string()), raw_of("no")), ParamValue(std::string("no")));
-  EXPECT_EQ(message(number(metres), raw_of("'2 cm'")),
-            "'x' is a length, and \"2 cm\" in quotes is text; write it without quotes");
+  EXPECT_EQ(message(number(metres), raw_of("'2'")),
+            "'x' is a length, and \"2\" in quotes is text; write it without quotes");
+  EXPECT_EQ(parse_param(number(metres), raw_of("\"2 cm\"")), ParamValue(0.02));  // JSON has no other way to say it
   EXPECT_NE(message(of_kind(ParamKind::boolean, true), raw_of("\"true\"")), "accepted");
 }
 

@@ -30,12 +30,15 @@ class PipelineFile : public testing::Test {
   }
   static std::vector<std::string> paths(const Pipeline& pipeline) {
     std::vector<std::string> result;
-    for (const auto& node : pipeline.nodes) result.push_back(node.path);
+    for (const std::size_t n : all_nodes(pipeline)) result.push_back(pipeline[n].path);
     return result;
   }
   static const PipelineNode& node(const Pipeline& pipeline, const std::string& path) {
-    for (const auto& n : pipeline.nodes)
-      if (n.path == path) return n;
+    return pipeline[index(pipeline, path)];
+  }
+  static std::size_t index(const Pipeline& pipeline, const std::string& path) {
+    for (const std::size_t n : all_nodes(pipeline))
+      if (pipeline[n].path == path) return n;
     throw std::runtime_error("no node " + path);
   }
   static ParamValue value(const Pipeline& pipeline, const std::string& path, const std::string& name) {

@@ -22,16 +22,16 @@ TEST_F(PipelineFile, IsReadWithDefaultsFilledIn) {
   const LoadResult result = load_text(small);
   ASSERT_TRUE(result.errors.empty()) << messages(result);
   const Pipeline& pipeline = result.pipeline;
-  EXPECT_EQ(pipeline.summary, "A small one.");
-  EXPECT_EQ(pipeline.seed, 18446744073709551615U);
+  EXPECT_EQ(pipeline[whole].summary, "A small one.");
+  EXPECT_EQ(pipeline[whole].seed, 18446744073709551615U);
   EXPECT_EQ(paths(pipeline), (std::vector<std::string>{"cloud", "planes"}));
   EXPECT_EQ(value(pipeline, "planes", "distance"), ParamValue(0.02));
   EXPECT_EQ(value(pipeline, "planes", "angle"), ParamValue(20.0));
   EXPECT_EQ(value(pipeline, "planes", "method"), ParamValue(std::string("hough")));
-  ASSERT_EQ(pipeline.nodes[1].inputs.size(), 1U);
-  EXPECT_EQ(pipeline.nodes[1].inputs[0].at(0).node, 0U);
-  ASSERT_EQ(pipeline.outputs.size(), 1U);
-  EXPECT_EQ(pipeline.outputs[0].from.node, 1U);
+  ASSERT_EQ(inputs_of(1, pipeline).size(), 1U);
+  EXPECT_EQ(inputs_of(1, pipeline)[0].at(0).node, 0U);
+  ASSERT_EQ(pipeline[whole].outputs.size(), 1U);
+  EXPECT_EQ(pipeline[whole].outputs[0].from.node, 1U);
 }
 
 TEST_F(PipelineFile, IsOrderedByItsEdgesThenByTheFile) {
@@ -46,7 +46,7 @@ outputs: {last: last.cloud, d: d.cloud}
 )");
   ASSERT_TRUE(result.errors.empty()) << messages(result);
   EXPECT_EQ(paths(result.pipeline), (std::vector<std::string>{"c", "a", "b", "last", "d"}));
-  const auto& edges = node(result.pipeline, "last").inputs.at(0);
+  const auto edges = inputs_of(3, result.pipeline).at(0);
   ASSERT_EQ(edges.size(), 3U);
   EXPECT_EQ(edges[0].node, 0U);  // a repeated port keeps the order of the file
   EXPECT_EQ(edges[1].node, 1U);
@@ -131,13 +131,13 @@ outputs: {planes: shell.planes}
   ASSERT_TRUE(second.errors.empty()) << messages(second) << resolved;
   EXPECT_TRUE(second.warnings.empty());
   EXPECT_EQ(paths(second.pipeline), paths(first.pipeline));
-  EXPECT_EQ(second.pipeline.seed, 77U);
-  EXPECT_EQ(second.pipeline.summary, "Two: with 'quotes'");
+  EXPECT_EQ(second.pipeline[whole].seed, 77U);
+  EXPECT_EQ(second.pipeline[whole].summary, "Two: with 'quotes'");
   EXPECT_EQ(value(second.pipeline, "shell/write", "title"), ParamValue(std::string("all: of ${it}")));
   EXPECT_EQ(value(second.pipeline, "shell/write", "path"), ParamValue(std::string("shell/planes.vg")));
-  for (std::size_t i = 0; i < first.pipeline.nodes.size(); ++i) {
-    EXPECT_EQ(second.pipeline.nodes[i].params, first.pipeline.nodes[i].params);
-    EXPECT_EQ(second.pipeline.nodes[i].type, first.pipeline.nodes[i].type);
+  for (std::size_t i = 0; i < node_count(first.pipeline); ++i) {
+    EXPECT_EQ(second.pipeline[i].params, first.pipeline[i].params);
+    EXPECT_EQ(second.pipeline[i].type, first.pipeline[i].type);
   }
   EXPECT_EQ(resolved_yaml(second.pipeline), resolved);
   EXPECT_TRUE(load(elsewhere.path() / "resolved.yaml", {"shell/write.title=other"}).errors.empty());
@@ -147,7 +147,7 @@ TEST_F(PipelineFile, TakesSettingsFromTheCommandLine) {
   const LoadResult result =
       load_text(small, {"planes.box=[1 cm, 2, 3]", "distance=1cm", "seed=7", "planes.refit=false"});
   ASSERT_TRUE(result.errors.empty()) << messages(result);
-  EXPECT_EQ(result.pipeline.seed, 7U);
+  EXPECT_EQ(result.pipeline[whole].seed, 7U);
   EXPECT_EQ(value(result.pipeline, "planes", "distance"), ParamValue(0.01));
   EXPECT_EQ(value(result.pipeline, "planes", "refit"), ParamValue(false));
   EXPECT_EQ(value(result.pipeline, "planes", "box"), ParamValue(std::vector<double>{0.01, 2, 3}));
@@ -185,7 +185,7 @@ outputs: {planes: refined.planes}
   const LoadResult look = load(file, {}, {.allow_missing = true});
   EXPECT_TRUE(look.errors.empty()) << messages(look);
   EXPECT_EQ(look.missing, (std::vector<std::string>{"inputs.planes", "scan"}));
-  EXPECT_EQ(look.pipeline.nodes.size(), 2U);
+  EXPECT_EQ(node_count(look.pipeline), 2U);
   EXPECT_EQ(load(file).errors.size(), 2U);
   EXPECT_TRUE(load(file, {"scan=" + file.string()}, {.allow_missing = true}).missing ==
               std::vector<std::string>{"inputs.planes"});
@@ -201,10 +201,9 @@ TEST_F(PipelineFile, OfTenThousandNodesIsOrdered) {
   // n1 reads n0 twice: i / 2 is 0 as well.
   const LoadResult result = load_text(nodes);
   ASSERT_TRUE(result.errors.empty()) << result.errors.size() << to_string(result.errors.front());
-  ASSERT_EQ(result.pipeline.nodes.size(), static_cast<std::size_t>(size));
-  for (std::size_t i = 0; i < result.pipeline.nodes.size(); ++i)
-    for (const auto& port : result.pipeline.nodes[i].inputs)
-      for (const auto& edge : port) ASSERT_LT(edge.node, i);
+  ASSERT_EQ(node_count(result.pipeline), static_cast<std::size_t>(size));
+  for (std::size_t i = 0; i < node_count(result.pipeline); ++i)
+    for (const auto& edge : edges_into(i, result.pipeline)) ASSERT_LT(boost::source(edge, result.pipeline), i);
 }
 
 TEST_F(PipelineFile, FullOfMistakesEndsInGoodTime) {
@@ -233,7 +232,7 @@ TEST_F(PipelineFile, WithAnyBytesNeverBreaksTheLoader) {
       }
     }
     const LoadResult result = load_text(text);
-    EXPECT_TRUE(!result.errors.empty() || !result.pipeline.nodes.empty()) << text;
+    EXPECT_TRUE(!result.errors.empty() || node_count(result.pipeline) > 0) << text;
   }
 }
 

@@ -55,7 +55,7 @@ TEST(RunFolder, HoldsTheManifestTheTraceAndTheResolvedPipeline) {
   b.add<Sum>("after", {{{1, 0}}});
   add_writer(b, "sub/x.txt", "12345");
   b.output("a", {a, 0});
-  b.pipeline().seed = 7;
+  b.pipeline()[whole].seed = 7;
   run(b.pipeline(), folder / "new/run");
   const auto m = manifest(folder / "new/run");
   EXPECT_EQ(m["status"], "failed");
@@ -86,7 +86,7 @@ TEST(RunFolder, HashesAreThoseOfAnyNumberOfThreads) {
   TemporaryFolder folder;
   PipelineBuilder b;
   for (std::size_t i = 0; i < 50; ++i) {
-    b.add<Sum>("n" + std::to_string(i), {i < 5 ? std::vector<Edge>{} : std::vector<Edge>{{i - 5, 0}, {i / 2, 0}}});
+    b.add<Sum>("n" + std::to_string(i), {i < 5 ? std::vector<Source>{} : std::vector<Source>{{i - 5, 0}, {i / 2, 0}}});
   }
   const auto outputs = [&](int threads) {
     run(b.pipeline(), folder / "run", threads);
@@ -134,7 +134,7 @@ TEST(RunFolder, ASecondRunLeavesNothingOfTheFirst) {
 
 TEST(RunFolder, IsLockedAgainstASecondRun) {
   TemporaryFolder folder;
-  const int lock = ::open(folder.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int lock = ::open((folder / ".atrium-lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   ASSERT_EQ(::flock(lock, LOCK_EX), 0);
   EXPECT_THROW(run(Pipeline{}, folder.path()), FolderError);
   ::close(lock);

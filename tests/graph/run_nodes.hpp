@@ -46,10 +46,10 @@ struct Sum {
     std::int64_t add = 1;
     bool fail = false;
   };
-  static constexpr auto inputs = std::tuple{port(&In::terms, "terms", "Numbers.")};
-  static constexpr auto outputs = std::tuple{port(&Out::sum, "sum", "Their sum.")};
+  static constexpr auto inputs = std::tuple{port<&In::terms>("Numbers.")};
+  static constexpr auto outputs = std::tuple{port<&Out::sum>("Their sum.")};
   static constexpr auto params =
-      std::tuple{param(&Params::add, "add", count, unbounded, "Added."), param(&Params::fail, "fail", "Throws.")};
+      std::tuple{param<&Params::add>(count, unbounded, "Added."), param<&Params::fail>("Throws.")};
   static std::int64_t value_of(const std::vector<std::int64_t>& terms, std::int64_t add) {
     auto sum = static_cast<std::uint64_t>(add);
     for (const auto t : terms) sum += 3 * static_cast<std::uint64_t>(t);
@@ -79,7 +79,7 @@ struct Hide {
   };
   struct Params {};
   static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::secret, "secret", "A value.")};
+  static constexpr auto outputs = std::tuple{port<&Out::secret>("A value.")};
   static constexpr auto params = std::tuple{};
   static Out run(const In& /*in*/, const Params& /*params*/, Context& /*context*/) { return {}; }
 };
@@ -97,9 +97,9 @@ struct Call {
   struct Params {
     std::int64_t which = 0;
   };
-  static constexpr auto inputs = std::tuple{port(&In::after, "after", "Runs after this.")};
-  static constexpr auto outputs = std::tuple{port(&Out::value, "value", "What the function returns.")};
-  static constexpr auto params = std::tuple{param(&Params::which, "which", count, unbounded, "Which function.")};
+  static constexpr auto inputs = std::tuple{port<&In::after>("Runs after this.")};
+  static constexpr auto outputs = std::tuple{port<&Out::value>("What the function returns.")};
+  static constexpr auto params = std::tuple{param<&Params::which>(count, unbounded, "Which function.")};
   using Function = std::function<std::shared_ptr<const Counted>(Context&)>;
   inline static std::vector<Function> functions;
   static Out run(const In& /*in*/, const Params& params, Context& context) {
@@ -109,7 +109,7 @@ struct Call {
 
 /// Adds a node that calls the function, after what `after` comes from; returns its number.
 inline std::size_t add_call(PipelineBuilder& builder, const std::string& name, Call::Function function,
-                            std::vector<Edge> after = {}) {
+                            std::vector<Source> after = {}) {
   Call::functions.push_back(std::move(function));
   const auto n = builder.add<Call>(name, {std::move(after)});
   builder.set("which", static_cast<std::int64_t>(Call::functions.size() - 1));

@@ -31,7 +31,7 @@ RandomPipeline random_pipeline(int failing) {
   const auto size = *rc::gen::inRange<std::size_t>(1, 40);
   for (std::size_t n = 0; n < size; ++n) {
     const auto count_of_terms = n == 0 ? 0 : *rc::gen::inRange(0, 4);
-    std::vector<Edge> edges;
+    std::vector<Source> edges;
     p.terms.emplace_back();
     for (int i = 0; i < count_of_terms; ++i) {
       p.terms.back().push_back(*rc::gen::inRange<std::size_t>(0, n));
@@ -67,8 +67,8 @@ RC_GTEST_PROP(RunProperties, AnyNumberOfThreadsEqualsADirectEvaluation, ()) {
   for (const int threads : {1, 2, 5}) {
     const auto result = run(p.builder.pipeline(), threads);
     RC_ASSERT(result.failures.empty());
-    RC_ASSERT(result.outputs.size() == p.builder.pipeline().outputs.size());
-    for (const auto& output : p.builder.pipeline().outputs)
+    RC_ASSERT(result.outputs.size() == p.builder.pipeline()[whole].outputs.size());
+    for (const auto& output : p.builder.pipeline()[whole].outputs)
       RC_ASSERT(number(result.outputs.at(output.name)) == expected[output.from.node]);
     for (std::size_t n = 0; n < expected.size(); ++n)
       RC_ASSERT(result.nodes[n].outputs.at(0).hash == content_hash(Counted(expected[n])));
@@ -101,7 +101,7 @@ RC_GTEST_PROP(RunProperties, SerialRunsHoldLiveEdgesOnly, ()) {
   std::vector<std::size_t> needs(order.size());
   for (std::size_t n = 0; n < order.size(); ++n)
     for (const auto t : p.terms[n]) ++needs[t];
-  for (const auto& output : p.builder.pipeline().outputs) ++needs[output.from.node];
+  for (const auto& output : p.builder.pipeline()[whole].outputs) ++needs[output.from.node];
   int live = 0;
   int most = 0;
   for (const auto n : order) {

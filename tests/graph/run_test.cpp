@@ -6,10 +6,10 @@
 #include <set>
 #include <thread>
 
+#include "graph/api/clocks.hpp"
 #include "graph/api/helper_memory.hpp"
 #include "graph/cache/cache.hpp"
 #include "graph/cache/nearest.hpp"
-#include "graph/run/clocks.hpp"
 #include "graph/run/runner.hpp"
 #include "tests/graph/run_nodes.hpp"
 #include "tests/support/pipeline_builder.hpp"

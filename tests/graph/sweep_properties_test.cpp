@@ -102,11 +102,12 @@ std::map<std::string, std::string> keys_of(const fs::path& file, Registry& regis
   const LoadResult loaded = load_pipeline(file, {}, registry);
   for (const auto& error : loaded.errors) RC_FAIL(to_string(error));
   std::map<std::string, std::string> keys;
-  for (const auto& node : loaded.pipeline.nodes) {
+  for (const std::size_t n : all_nodes(loaded.pipeline)) {
+    const PipelineNode& node = loaded.pipeline[n];
     std::vector<std::vector<std::string>> hashes;
-    for (const auto& port : node.inputs) {
+    for (const auto& port : inputs_of(n, loaded.pipeline)) {
       auto& list = hashes.emplace_back();
-      for (const Edge& edge : port) list.push_back(loaded.pipeline.nodes[edge.node].path);
+      for (const Source& source : port) list.push_back(loaded.pipeline[source.node].path);
     }
     keys[node.path] = cache.key_of(node, hashes).hex();
   }

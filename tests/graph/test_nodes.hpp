@@ -27,8 +27,8 @@ struct Read {
     InputPath path;
   };
   static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "What the file holds.")};
-  static constexpr auto params = std::tuple{param(&Params::path, "path", "The file.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cloud>("What the file holds.")};
+  static constexpr auto params = std::tuple{param<&Params::path>("The file.")};
   static Out run(const In&, const Params&, Context&) { return {}; }
 };
 
@@ -42,7 +42,7 @@ struct Make {
   };
   struct Params {};
   static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "A cloud.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cloud>("A cloud.")};
   static constexpr auto params = std::tuple{};
   static Out run(const In&, const Params&, Context&) { return {}; }
 };
@@ -68,17 +68,16 @@ struct Find {
     bool refit = true;
     std::vector<double> box = {1, 2, 3};
   };
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points.")};
-  static constexpr auto outputs =
-      std::tuple{port(&Out::planes, "planes", "Planes."), port(&Out::rest, "rest", "Points of no plane.")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points.")};
+  static constexpr auto outputs = std::tuple{port<&Out::planes>("Planes."), port<&Out::rest>("Points of no plane.")};
   static constexpr auto params =
-      std::tuple{param(&Params::distance, "distance", metres, within(0, 10), "Distance of inliers."),
-                 param(&Params::angle, "angle", degrees, within(0, 90), "Angle of inliers."),
-                 param(&Params::max_planes, "max_planes", count, within(1, 1000), "At most so many."),
-                 param(&Params::share, "share", ratio, within(0, 1), "Share of the points."),
-                 param(&Params::method, "method", {{"ransac", Method::ransac}, {"hough", Method::hough}}, "How."),
-                 param(&Params::refit, "refit", "Whether planes are fitted again."),
-                 param(&Params::box, "box", metres, unbounded, "Size of the box.")};
+      std::tuple{param<&Params::distance>(metres, within(0, 10), "Distance of inliers."),
+                 param<&Params::angle>(degrees, within(0, 90), "Angle of inliers."),
+                 param<&Params::max_planes>(count, within(1, 1000), "At most so many."),
+                 param<&Params::share>(ratio, within(0, 1), "Share of the points."),
+                 param<&Params::method>({{"ransac", Method::ransac}, {"hough", Method::hough}}, "How."),
+                 param<&Params::refit>("Whether planes are fitted again."),
+                 param<&Params::box>(metres, unbounded, "Size of the box.")};
   static Out run(const In&, const Params&, Context&) { return {}; }
 };
 
@@ -96,11 +95,10 @@ struct Grow {
     double distance = 0.05;
     double voxel = 0.02;
   };
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "Points.")};
-  static constexpr auto outputs = std::tuple{port(&Out::planes, "planes", "Planes.")};
-  static constexpr auto params =
-      std::tuple{param(&Params::distance, "distance", metres, within(0, 0.4), "Distance of inliers."),
-                 param(&Params::voxel, "voxel", metres, within(0.001, 1), "Size of voxels.")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points.")};
+  static constexpr auto outputs = std::tuple{port<&Out::planes>("Planes.")};
+  static constexpr auto params = std::tuple{param<&Params::distance>(metres, within(0, 0.4), "Distance of inliers."),
+                                            param<&Params::voxel>(metres, within(0.001, 1), "Size of voxels.")};
   static Out run(const In&, const Params&, Context&) { return {}; }
 };
 
@@ -116,9 +114,8 @@ struct Refine {
     SharedOutput<Planes> planes;
   };
   struct Params {};
-  static constexpr auto inputs =
-      std::tuple{port(&In::planes, "planes", "Planes."), port(&In::cloud, "cloud", "Their points.")};
-  static constexpr auto outputs = std::tuple{port(&Out::planes, "planes", "Planes.")};
+  static constexpr auto inputs = std::tuple{port<&In::planes>("Planes."), port<&In::cloud>("Their points.")};
+  static constexpr auto outputs = std::tuple{port<&Out::planes>("Planes.")};
   static constexpr auto params = std::tuple{};
   static Out run(const In& in, const Params&, Context&) { return {in.planes}; }
 };
@@ -137,11 +134,11 @@ struct Join {
     std::vector<InputPath> files;
     std::vector<double> weights;
   };
-  static constexpr auto inputs = std::tuple{port(&In::clouds, "clouds", "Clouds.")};
-  static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "All of them.")};
+  static constexpr auto inputs = std::tuple{port<&In::clouds>("Clouds.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cloud>("All of them.")};
   static constexpr auto params =
-      std::tuple{param(&Params::names, "names", "Their names."), param(&Params::files, "files", "Their poses."),
-                 param(&Params::weights, "weights", unitless, at_least(0), "Their weights.")};
+      std::tuple{param<&Params::names>("Their names."), param<&Params::files>("Their poses."),
+                 param<&Params::weights>(unitless, at_least(0), "Their weights.")};
   static Out run(const In&, const Params&, Context&) { return {}; }
 };
 
@@ -156,10 +153,9 @@ struct Write {
     OutputPath path{"planes.vg"};
     std::string title = "planes";
   };
-  static constexpr auto inputs = std::tuple{port(&In::planes, "planes", "Planes.")};
+  static constexpr auto inputs = std::tuple{port<&In::planes>("Planes.")};
   static constexpr auto outputs = std::tuple{};
-  static constexpr auto params =
-      std::tuple{param(&Params::path, "path", "The file."), param(&Params::title, "title", "Its title.")};
+  static constexpr auto params = std::tuple{param<&Params::path>("The file."), param<&Params::title>("Its title.")};
   static Out run(const In&, const Params&, Context&) { return {}; }
 };
 

@@ -41,7 +41,7 @@ TEST(Ablations, OfOneRoomGiveTheirMetrics) {
       atrium({"sweep", "run", (folder / "s.yaml").string(), "--out", (folder / "out").string(), "--quiet", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   for (const auto& row : nlohmann::json::parse(result.out).at("variants")) {
-    EXPECT_GT(std::stod(row.at("completeness").get<std::string>()), 0.9);
+    EXPECT_GT(row.at("completeness").get<double>(), 0.9);
     const fs::path variant = folder / ("out/variants/" + row.at("id").get<std::string>());
     EXPECT_TRUE(fs::exists(variant / "structure.glb"));
     EXPECT_TRUE(fs::exists(variant / "picture.png"));

@@ -22,9 +22,10 @@ TEST_F(CacheFolderOfRuns, IsKeptBelowItsSize) {
   EXPECT_GT(gc["removed_files"], 0);
   ASSERT_EQ(atrium({"run", "p.yaml", "--out", "again", "-s", "number=7"}).exit_code, 0);
   EXPECT_EQ(shown("again"), shown("r"));
-  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"cache", "gc", "--cache-size", "many"},
-                                                {"run", "p.yaml", "--out", "r", "--cache-size", "20 gb"},
-                                                {"sweep", "run", "s.yaml", "--out", "s", "--mem", "much"}}) {
+  for (const std::vector<std::string>& wrong :
+       {std::vector<std::string>{"cache", "gc", "--cache-size", "many"},
+        {"run", "p.yaml", "--out", "r", "--cache-size", "20 gb"},
+        {"sweep", "run", "s.yaml", "--out", "s", "--isolate", "--mem", "much"}}) {
     const auto result = atrium(wrong);
     EXPECT_EQ(result.exit_code, 2) << result.err;
     EXPECT_NE(result.err.find("is no size"), std::string::npos) << result.err;
@@ -61,7 +62,7 @@ TEST_F(CacheFolderOfRuns, IsLookedAfterWhereThereIsOneOnly) {
   EXPECT_FALSE(fs::exists(folder / "cache"));
   ASSERT_EQ(atrium({"run", "p.yaml", "--out", "r"}).exit_code, 0);
   EXPECT_NE(atrium({"cache", "stat"}).out.find("\nhashes "), std::string::npos);
-  const int other = ::open((folder / "cache").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int other = ::open((folder / "cache/.atrium-lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   ASSERT_EQ(::flock(other, LOCK_EX | LOCK_NB), 0);
   const auto busy = atrium({"cache", "gc", "--cache-size", "0"});
   ::close(other);

@@ -165,72 +165,21 @@ TEST_F(CacheOfRuns, NodesThatMisbehaveLeaveACacheThatWorks) {
   expect_sound();
 }
 
-TEST_F(CacheOfRuns, ANodeThatIsNotDeterministicIsFoundOut) {
+TEST_F(CacheOfRuns, ANodeThatIsNotDeterministicIsFoundOutAndTheRunGoesOn) {
   // Its value is not worth keeping, so it is made again when a later node needs it, and differs.
   write_text(folder / "f.yaml", R"(atrium: 1
 nodes:
   fickle: {type: trial.fault, params: {points: 10, mode: fickle}}
   after: {type: trial.fault, in: {after: fickle.cloud}}
-outputs: {sum: after.sum}
+  more: {type: trial.fault, in: {after: fickle.cloud}}
+outputs: {sum: after.sum, more: more.sum}
 )");
   ASSERT_EQ(atrium({"run", "f.yaml", "--out", "r"}).exit_code, 0);
   const auto result = atrium({"run", "f.yaml", "--out", "r", "-s", "after.number=3"});
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("fickle: run again, it gave another 'cloud' than before"), std::string::npos) << result.err;
-}
-
-TEST_F(CacheOfRuns, WhatNeedsAValueThatCannotBeMadeAgainIsSkippedAlsoLater) {
-  write_text(folder / "f.yaml", R"(atrium: 1
-nodes:
-  fickle: {type: trial.fault, params: {points: 10, mode: fickle}}
-  slow: {type: trial.fault, params: {work: 0.5 s}}
-  after: {type: trial.fault, in: {after: fickle.cloud}}
-  both: {type: trial.step, in: {after: late.sum}}
-  late: {type: trial.fault, in: {after: chained.cloud}}
-  chained: {type: trial.fault, in: {after: fickle.cloud}, params: {work: 0.001 s}}
-outputs: {sum: after.sum, late: both.value, slow: slow.sum}
-)");
-  ASSERT_EQ(atrium({"run", "f.yaml", "--out", "first"}).exit_code, 0);
-  fs::remove_all(folder / "cache/values");
-  // `after` finds out that the value of `fickle` cannot be had; `joined`, which reads it too, is ready much later.
-  std::string text = read_text(folder / "f.yaml");
-  text.replace(text.find("outputs: {"), 10,
-               "  joined: {type: trial.join, in: {a: fickle.cloud, b: slow.cloud}}\n"
-               "  more: {type: trial.join, in: {a: chained.cloud, b: slow.cloud}}\n"
-               "outputs: {joined: joined.points, more: more.points, ");
-  write_text(folder / "f.yaml", text);
-  const auto result = atrium({"run", "f.yaml", "--out", "r", "-s", "after.number=3", "-s", "slow.number=3", "-j", "4"});
-  EXPECT_EQ(result.exit_code, 1) << result.err;
-  const json all = manifest("r");
-  EXPECT_EQ(all["status"], "failed");
-  std::map<std::string, std::string> status;
-  for (const auto& node : all["nodes"]) status[node["node"]] = node["status"];
-  EXPECT_EQ(status.at("fickle"), "failed");
-  for (const char* node : {"after", "joined", "more"}) EXPECT_EQ(status.at(node), "skipped") << node;
-  EXPECT_EQ(status.at("slow"), "ok");
-  for (const auto& node : all["nodes"]) EXPECT_EQ(node["status"] == "skipped", node.value("because", "") != "") << node;
-}
-
-TEST_F(CacheOfRuns, WhatWaitsForTwoValuesThatCannotBeMadeAgainIsSkippedOnce) {
-  write_text(folder / "f.yaml", R"(atrium: 1
-nodes:
-  one: {type: trial.fault, params: {points: 10, mode: fickle}}
-  other: {type: trial.fault, params: {points: 20, mode: fickle, work: 0.001 s}}
-outputs: {one: one.sum, other: other.sum}
-)");
-  ASSERT_EQ(atrium({"run", "f.yaml", "--out", "first"}).exit_code, 0);
-  fs::remove_all(folder / "cache/values");
-  std::string text = read_text(folder / "f.yaml");
-  text.replace(text.find("outputs: {"), 10,
-               "  joined: {type: trial.join, in: {a: one.cloud, b: other.cloud}}\n"
-               "outputs: {joined: joined.points, ");
-  write_text(folder / "f.yaml", text);
-  EXPECT_EQ(atrium({"run", "f.yaml", "--out", "r"}).exit_code, 1);
-  std::map<std::string, std::string> status;
-  const json all = manifest("r");
-  for (const auto& node : all["nodes"]) status[node["node"]] = node["status"];
-  EXPECT_EQ(status,
-            (std::map<std::string, std::string>{{"one", "failed"}, {"other", "failed"}, {"joined", "skipped"}}));
+  EXPECT_EQ(uses("r"), "fickle:miss after:miss more:miss");
+  EXPECT_EQ(manifest("r")["nodes"][0]["warnings"].size(), 1U);
 }
 
 TEST_F(CacheOfRuns, AGrowingSweepRunsWhatIsNew) {
@@ -303,21 +252,6 @@ TEST_F(CacheOfRuns, APlanSaysWhatIsKnownAndWhatTheRestCosts) {
   EXPECT_GE(after["seconds"], 0.05);
   EXPECT_EQ(plan("1, 2", {"--no-cache"})["nodes_to_run"], 8);
   EXPECT_EQ(plan("1, 2", {"--out", "a"})["variants"][1]["done"], true);
-}
-
-TEST_F(CacheOfRuns, ASweepStaysWithinItsMemory) {
-  write_text(folder / "s.yaml", "atrium: 1\nsweep: p.yaml\ngrid: {first.number: [1, 2, 3, 4]}\n");
-  // Less than any two nodes need: they run one after the other, and all are run.
-  const auto result = atrium({"sweep", "run", "s.yaml", "--out", "a", "--mem", "1 kB", "-j", "4"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const json trace = json::parse(read_text(folder / "a/trace.json"));
-  std::vector<std::pair<double, double>> spans;
-  for (const auto& event : trace["traceEvents"])
-    if (event["ph"] == "X" && event["cat"] == "trial.fault")
-      spans.emplace_back(event["ts"], event["ts"].get<double>() + event["dur"].get<double>());
-  ASSERT_EQ(spans.size(), 12U);
-  std::sort(spans.begin(), spans.end());
-  for (std::size_t i = 1; i < spans.size(); ++i) EXPECT_GE(spans[i].first + 1, spans[i - 1].second);
 }
 
 }  // namespace

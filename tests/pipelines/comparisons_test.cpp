@@ -57,8 +57,8 @@ TEST(Comparisons, ThePapersMethodIsScoredOnASimulatedRoom) {
       atrium({"sweep", "run", (folder / "s.yaml").string(), "--out", (folder / "out").string(), "--quiet", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto row = nlohmann::json::parse(result.out).at("variants").at(0);
-  EXPECT_GT(std::stod(row.at("completeness").get<std::string>()), 0.9);
-  EXPECT_GE(std::stod(row.at("components").get<std::string>()), 8);
+  EXPECT_GT(row.at("completeness").get<double>(), 0.9);
+  EXPECT_GE(row.at("components").get<double>(), 8);
   EXPECT_TRUE(fs::exists(folder / "out/sheet.png"));
 }
 

@@ -238,6 +238,30 @@ TEST_F(Farm, GnuParallelRunsTwentyVariantsAndGatherTellsTheTruth) {
   expect_truth_of_twenty("out");
 }
 
+// No part of a folder's name is a command, nor anything that parallel replaces.
+TEST_F(Farm, AnyFolderWillDo) {
+  if (!fs::exists("/usr/bin/parallel")) GTEST_SKIP() << "parallel is not installed";
+  sweep("grid: {second.number: [2, 3]}\nmetrics: {sum: sum}\n");
+  for (const std::string out : {"it's here", "a {} b {#} %a %%", "x'; touch INJECTED; echo '", "$(touch INJECTED)"}) {
+    const auto result = atrium({"submit", "s.yaml", "--engine", "parallel", "--out", out, "--no-cache"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("2 of 2 variants have a result"), std::string::npos) << result.err;
+    EXPECT_EQ(gathered(out, 0).size(), 2U);
+    EXPECT_TRUE(fs::exists(work(out) / "shard-2.log"));
+  }
+  EXPECT_FALSE(fs::exists(folder / "INJECTED"));
+  // Nothing runs: that is said.
+  write_text(folder / "none", "#!/bin/sh\ncat >/dev/null\nexit 2\n");
+  fs::create_directories(folder / "bin");
+  fs::rename(folder / "none", folder / "bin/parallel");
+  fs::permissions(folder / "bin/parallel", fs::perms::owner_all);
+  ProcessOptions options;
+  options.environment.push_back("PATH=" + (folder / "bin").string() + ":/usr/bin:/bin");
+  const auto nothing = atrium({"submit", "s.yaml", "--engine", "parallel", "--out", "no", "--no-cache"}, options);
+  EXPECT_EQ(nothing.exit_code, 1);
+  EXPECT_NE(nothing.err.find("0 of 2 variants have a result"), std::string::npos) << nothing.err;
+}
+
 TEST_F(Farm, ADryRunPrintsWhatIsCalledAndWritesNothing) {
   sweep("grid: {second.number: [2, 3, 4]}\n");
   const auto result = atrium({"submit", "s.yaml", "--engine", "slurm", "--out", "it's here", "--cache", "cache",
@@ -251,7 +275,7 @@ TEST_F(Farm, ADryRunPrintsWhatIsCalledAndWritesNothing) {
   EXPECT_FALSE(fs::exists(folder / "it's here"));
   const auto parallel = atrium({"submit", "s.yaml", "--engine", "parallel", "--out", "out", "--no-cache", "--dry-run"});
   EXPECT_EQ(parallel.out.find("shared"), std::string::npos) << parallel.out;  // through what?
-  EXPECT_NE(parallel.out.find("\nseq 3 | parallel "), std::string::npos) << parallel.out;
+  EXPECT_NE(parallel.out.find("\nfor task in $(seq 3); do "), std::string::npos) << parallel.out;
   EXPECT_EQ(atrium({"submit", "s.yaml", "--engine", "pbs", "--out", "out"}).exit_code, 2);
 }
 

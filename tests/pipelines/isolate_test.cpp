@@ -180,6 +180,33 @@ TEST_F(Isolated, ItsProcessesEndWithIt) {
   EXPECT_NE(result.err.find("3 variants done (2 before)"), std::string::npos) << result.err;
 }
 
+// A shell may start something, and then become the program: its children stay the program's.
+TEST_F(Isolated, ProcessesThatAreNotItsOwnLiveOn) {
+  sweep("list: {a: {}, bad: {second.mode: segv}, b: {second.number: 3}}\nmetrics: {sum: sum}\n");
+  ProcessOptions options;
+  options.folder = folder.path();
+  options.environment = {"ATRIUM_PLUGIN_PATH=" ATRIUM_TRIAL_PLUGIN, "ATRIUM=" ATRIUM_PROGRAM};
+  const auto result = run_process({"/bin/sh", "-c",
+                                   "sleep 60 >/dev/null 2>&1 & echo $! >stranger; exec \"$ATRIUM\" sweep run s.yaml "
+                                   "--isolate --out out --no-cache -q"},
+                                  options);
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  const pid_t stranger = std::stoi(read_text(folder / "stranger"));
+  EXPECT_EQ(::kill(stranger, 0), 0);
+  ::kill(stranger, SIGKILL);
+}
+
+TEST_F(Isolated, EndsAlsoWhereTheEndOfChildrenIsIgnored) {
+  sweep("list: {a: {}, b: {second.number: 3}}\nmetrics: {sum: sum}\n");
+  ProcessOptions options;
+  options.folder = folder.path();
+  options.environment = {"ATRIUM_PLUGIN_PATH=" ATRIUM_TRIAL_PLUGIN, "ATRIUM=" ATRIUM_PROGRAM};
+  const auto result = run_process(
+      {"/bin/sh", "-c", "trap '' CHLD; exec \"$ATRIUM\" sweep run s.yaml --isolate --out out --no-cache -q"}, options);
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
 TEST_F(Isolated, AFullDiskIsSaidAndLeavesAFolderThatGoesOn) {
   sweep("grid: {second.number: [2, 3, 4]}\nmetrics: {sum: sum}\n");
   ASSERT_EQ(atrium({"run", "s.yaml", "--out", "undisturbed"}).exit_code, 0);

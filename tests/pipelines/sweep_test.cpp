@@ -193,6 +193,62 @@ TEST_F(Sweep, FilesOfTheOtherKindAreToldApart) {
   EXPECT_NE(check.err.find("this is a sweep file, not a pipeline"), std::string::npos) << check.err;
 }
 
+TEST_F(Sweep, AScriptReadsNumbersAsNumbers) {
+  sweep("grid: {second.value: [2, 3]}\nmetrics: {sum: number, text: text}\n");
+  const auto result = atrium({"run", "s.yaml", "--out", "out", "--quiet", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json variants = json::parse(result.out).at("variants");
+  ASSERT_EQ(variants.size(), 2U);
+  for (const auto& variant : variants) {
+    EXPECT_TRUE(variant.at("sum").is_number()) << variant;
+    EXPECT_EQ(variant.at("label"), "second.value = " + variant.at("second.value").get<std::string>());
+    const fs::path link = folder / "out/by_label" / ("value " + variant.at("second.value").get<std::string>());
+    EXPECT_EQ(fs::read_symlink(link), fs::path("../variants") / variant.at("id").get<std::string>());
+  }
+}
+
+TEST_F(Sweep, EachFileOfAFolderIsAScene) {
+  fs::create_directories(folder / "scans");
+  for (const char* name : {"b.txt", "a.txt", ".hidden.txt", "c.log"}) write_text(folder / "scans" / name, "");
+  const auto scenes = [&](const std::string& files) {
+    sweep("scenes: {write.path: " + files + "}\n");
+    const auto plan = atrium({"plan", "s.yaml", "--json"});
+    std::vector<std::string> labels;
+    if (plan.exit_code != 0) return std::vector{plan.err};
+    const json report = json::parse(plan.out);
+    for (const auto& variant : report.at("variants")) labels.push_back(variant.at("variant"));
+    return labels;
+  };
+  // The base has no input file: what is set is refused, but for each file, and says which it is.
+  const auto refused = scenes("scans/*.txt").front();
+  EXPECT_NE(refused.find("/scans/a.txt"), std::string::npos) << refused;
+  EXPECT_EQ(refused.find("hidden"), std::string::npos) << refused;
+  EXPECT_EQ(refused.find("c.log"), std::string::npos) << refused;
+  EXPECT_NE(scenes("scans").front().find("/scans/c.log"), std::string::npos);
+  EXPECT_NE(scenes("nowhere/*").front().find("no file fits 'nowhere/*'"), std::string::npos);
+}
+
+// A variant's id says what it computes: it stays when the sweep grows, and when all of it stands elsewhere.
+TEST_F(Sweep, IdsStayWhenACheckoutMoves) {
+  const TemporaryFolder other;
+  const auto in = [&](const fs::path& place) {
+    write_text(place / "scan.xyz", "0 0 0\n");
+    write_text(place / "read.yaml",
+               "atrium: 1\nvars: {scan: scan.xyz}\nnodes:\n  scan: {type: io.read_scan, params: {path: \"${scan}\"}}\n"
+               "outputs: {scan: scan.cloud}\n");
+    write_text(place / "ids.yaml", "atrium: 1\nsweep: read.yaml\nseeds: [1, 2]\n");
+    ProcessOptions options;
+    options.folder = place;
+    const auto plan = run_process({ATRIUM_PROGRAM, "sweep", "plan", "ids.yaml", "--json"}, options);
+    EXPECT_EQ(plan.exit_code, 0) << plan.err;
+    std::vector<std::string> found;
+    if (plan.exit_code == 0)
+      for (const auto& variant : json::parse(plan.out).at("variants")) found.push_back(variant.at("id"));
+    return found;
+  };
+  EXPECT_EQ(in(folder.path()), in(other.path()));
+}
+
 TEST_F(Sweep, AMetricThatNoVariantHasIsAnError) {
   sweep("metrics: {sum: number.nothing}\n");
   const auto result = atrium({"run", "s.yaml", "--out", "out", "--quiet"});

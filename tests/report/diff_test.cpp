@@ -48,6 +48,30 @@ outputs: {faces: faces.metrics, distance: distance.metrics}
   TemporaryFolder folder;
 };
 
+/// A run's folder that somebody has sent.
+TEST_F(Diff, FilesOutsideOfTheFolderAreNotRead) {
+  write_text(folder / "private.png", "secret");
+  fs::create_directories(folder / "sent");
+  fs::create_symlink(folder / "private.png", folder / "sent/link.png");
+  write_text(folder / "sent/resolved.yaml", "atrium: 1\nnodes: {}\n");
+  json artefacts = json::array();
+  for (const std::string path :
+       {(folder / "private.png").string(), std::string("../private.png"), std::string("link.png")})
+    artefacts.push_back({{"path", path}, {"bytes", 6}});
+  write_text(folder / "sent/manifest.json",
+             json{{"status", "ok"},
+                  {"outputs", json::object()},
+                  {"nodes", {{{"node", "a"}, {"type", "t.a"}, {"status", "ok"}, {"artefacts", artefacts}}}}}
+                 .dump());
+  const report::RunRecord record = report::read_run(folder / "sent");
+  EXPECT_TRUE(record.files.empty());
+  EXPECT_EQ(record.outside.size(), 3U);
+  const auto result = atrium({"report", "sent", "-o", "r.html"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("is not in the folder"), std::string::npos) << result.err;
+  EXPECT_EQ(read_text(folder / "r.html").find("c2VjcmV0"), std::string::npos);  // "secret" in base64
+}
+
 TEST_F(Diff, OfTheSameRunTwiceIsNothing) {
   run("a");
   run("b");

@@ -5,7 +5,6 @@
 
 #include "graph/report/attachments.hpp"
 #include "graph/report/base64.hpp"
-#include "graph/report/csv.hpp"
 #include "tests/support/process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -205,7 +204,7 @@ outputs: {cloud: scan.cloud}
 
 TEST_F(Report, OfASweepWithoutItsTableShowsWhatIsDone) {
   make_sweep(folder.path());
-  fs::remove(folder / "out/table.csv");
+  fs::remove(folder / "out/table.json");
   const auto result = atrium({"report", "out"}, folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("only the variants that are done are shown"), std::string::npos) << result.err;
@@ -214,7 +213,12 @@ TEST_F(Report, OfASweepWithoutItsTableShowsWhatIsDone) {
 
 TEST_F(Report, OfAThousandVariantsOpensAndSorts) {
   json axes = json::parse(R"([{"name": "a.x", "choices": []}, {"name": "seed", "choices": []}])");
-  std::string table = "id,a.x,seed,error [mm],count,status\n";
+  json table{{"columns",
+              {{{"title", "a.x"}, {"kind", "axis"}},
+               {{"title", "seed"}, {"kind", "axis"}},
+               {{"title", "error [mm]"}, {"kind", "metric"}, {"name", "error"}, {"unit", "mm"}},
+               {{"title", "count"}, {"kind", "metric"}, {"name", "count"}, {"unit", ""}}}},
+             {"variants", json::array()}};
   for (int x = 0; x < 100; ++x)
     axes[0]["choices"].push_back({{"label", std::to_string(x) + " cm"}, {"set", {{"a.x", std::to_string(x) + " cm"}}}});
   for (int seed = 0; seed < 10; ++seed)
@@ -242,12 +246,16 @@ TEST_F(Report, OfAThousandVariantsOpensAndSorts) {
     write_text(at / "resolved.yaml",
                "atrium: 1\nseed: " + std::to_string(v % 10) +
                    "\nnodes:\n  a:\n    type: a.b\n    params:\n      x: " + std::to_string(v / 10) + " cm\n");
-    table += id + "," + std::to_string(v / 10) + " cm," + std::to_string(v % 10) + "," +
-             std::to_string((v * 7919) % 1000 + 0.25) + "," + std::to_string(v) + ",ok\n";
+    table["variants"].push_back({{"id", id},
+                                 {"a.x", std::to_string(v / 10) + " cm"},
+                                 {"seed", std::to_string(v % 10)},
+                                 {"error [mm]", (v * 7919) % 1000 + 0.25},
+                                 {"count", v},
+                                 {"status", "ok"}});
   }
   write_text(folder / "out/sweep.json",
              json{{"atrium", "0"}, {"sweep", "/a/many.yaml"}, {"axes", axes}, {"metrics", json::array()}}.dump());
-  write_text(folder / "out/table.csv", table);
+  write_text(folder / "out/table.json", table.dump());
   const auto result = atrium({"report", "out"}, folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   expect_works_in_browser(folder / "out/report.html", true);
@@ -305,7 +313,14 @@ TEST(ReportParts, ATableOfOtherAxesIsNotTakenForTheSweeps) {
   };
   variant("old", "a.x", "1 cm");
   variant("new", "b.y", "1 cm");
-  write_text(folder / "table.csv", "id,seed,a.x,count,status\nold,1,1 cm,7,ok\n");
+  const auto write_table = [&](const std::string& id, const std::string& axis, const std::string& choice) {
+    const json columns{{{"title", "seed"}, {"kind", "axis"}},
+                       {{"title", axis}, {"kind", "axis"}},
+                       {{"title", "count"}, {"kind", "metric"}, {"name", "count"}, {"unit", ""}}};
+    const json row{{"id", id}, {"seed", "1"}, {axis, choice}, {"count", 7}, {"status", "ok"}};
+    write_text(folder / "table.json", json{{"columns", columns}, {"variants", {row}}}.dump());
+  };
+  write_table("old", "a.x", "1 cm");
   const auto shown = [&] {
     std::vector<std::string> ids;
     const auto record = report::read_sweep_folder(folder.path());
@@ -318,9 +333,9 @@ TEST(ReportParts, ATableOfOtherAxesIsNotTakenForTheSweeps) {
   write_sweep("b.y", {"1 cm", "2 cm"});
   EXPECT_EQ(shown(), std::pair(Ids{"new"}, std::size_t{2}));
   // The same axes, other choices.
-  write_text(folder / "table.csv", "id,seed,b.y,count,status\ngone,1,5 cm,7,ok\n");
+  write_table("gone", "b.y", "5 cm");
   EXPECT_EQ(shown(), std::pair(Ids{"new"}, std::size_t{2}));
-  write_text(folder / "table.csv", "cut off");
+  write_text(folder / "table.json", "cut off");
   EXPECT_EQ(shown(), std::pair(Ids{"new"}, std::size_t{2}));
 }
 
@@ -338,13 +353,6 @@ TEST(ReportParts, AFileThatIsTooLargeIsNotRead) {
   ASSERT_EQ(attachments.notes.size(), 3U);
   EXPECT_TRUE(attachments.notes[1].starts_with("1 of 1 models are not in this file")) << attachments.notes[1];
   EXPECT_NE(attachments.notes[2].find("gone.png cannot be read"), std::string::npos) << attachments.notes[2];
-}
-
-TEST(ReportParts, CsvIsReadAsItIsWritten) {
-  using Rows = std::vector<std::vector<std::string>>;
-  EXPECT_EQ(report::read_csv("a,b\n1,\"x, \"\"y\"\"\nz\"\n"), (Rows{{"a", "b"}, {"1", "x, \"y\"\nz"}}));
-  EXPECT_EQ(report::read_csv("a,\r\n,\r\n"), (Rows{{"a", ""}, {"", ""}}));
-  EXPECT_EQ(report::read_csv(""), Rows{});
 }
 
 TEST(ReportParts, Base64IsThatOfTheStandard) {  // RFC 4648, section 10

@@ -12,22 +12,29 @@ class PipelineBuilder {
  public:
   /// One list of edges per input port of the type; parameters have their defaults. Returns the node's index.
   template <class N>
-  std::size_t add(std::string path, std::vector<std::vector<Edge>> inputs = {}) {
-    PipelineNode node{std::move(path), type_of<N>(), {}, std::move(inputs)};
-    node.seed = node_seed(pipeline_.seed, node.path);
-    node.inputs.resize(node.type->inputs.size());
+  std::size_t add(std::string path, std::vector<std::vector<Source>> inputs = {}) {
+    PipelineNode node{std::move(path), type_of<N>()};
+    node.seed = node_seed(pipeline_[whole].seed, node.path);
     for (const auto& param : node.type->params) node.params.push_back(param.initial);
-    pipeline_.nodes.push_back(std::move(node));
-    return pipeline_.nodes.size() - 1;
+    // An edge from a node that is not there yet has made a vertex for it, and for those between.
+    const std::size_t n = last_ = count_++;
+    if (n < node_count(pipeline_))
+      pipeline_[n] = std::move(node);
+    else
+      add_node(std::move(node), pipeline_);
+    for (std::size_t input = 0; input < inputs.size(); ++input)
+      for (std::size_t place = 0; place < inputs[input].size(); ++place)
+        connect(inputs[input][place], n, input, place, pipeline_);
+    return n;
   }
   /// Sets a parameter of the node added last.
   PipelineBuilder& set(const std::string& name, ParamValue value) {
-    PipelineNode& node = pipeline_.nodes.back();
+    PipelineNode& node = pipeline_[last_];
     for (std::size_t i = 0; i < node.params.size(); ++i)
       if (node.type->params[i].name == name) node.params[i] = std::move(value);
     return *this;
   }
-  void output(std::string name, Edge from) { pipeline_.outputs.push_back({std::move(name), from}); }
+  void output(std::string name, Source from) { pipeline_[whole].outputs.push_back({std::move(name), from}); }
   Pipeline& pipeline() { return pipeline_; }
 
  private:
@@ -39,6 +46,7 @@ class PipelineBuilder {
   }
 
   std::deque<NodeType> types_;
+  std::size_t count_ = 0, last_ = 0;
   Pipeline pipeline_;
 };
 

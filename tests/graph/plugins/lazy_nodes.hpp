@@ -15,8 +15,8 @@ struct Double {
     double number = 1;
   };
   static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::result, "result", "")};
-  static constexpr auto params = std::tuple{param(&Params::number, "number", unitless, unbounded, "")};
+  static constexpr auto outputs = std::tuple{port<&Out::result>("")};
+  static constexpr auto params = std::tuple{param<&Params::number>(unitless, unbounded, "")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 
@@ -43,7 +43,7 @@ struct Light {
   };
   struct Params {};
   static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::result, "result", "")};
+  static constexpr auto outputs = std::tuple{port<&Out::result>("")};
   static constexpr auto params = std::tuple{};
   static Out run(const In& in, const Params& params, Context& context);
 };

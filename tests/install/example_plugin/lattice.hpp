@@ -18,11 +18,11 @@ struct Lattice {
     double spacing = 0.1;
   };
   static constexpr auto inputs = std::tuple{};
-  static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "The points, the first at zero."),
-                                             port(&Out::points, "points", "How many there are.")};
+  static constexpr auto outputs =
+      std::tuple{port<&Out::cloud>("The points, the first at zero."), port<&Out::points>("How many there are.")};
   static constexpr auto params =
-      std::tuple{param(&Params::side, "side", count, within(1, 100), "Points along each axis."),
-                 param(&Params::spacing, "spacing", metres, within(1e-3, 10), "Distance between neighbouring points.")};
+      std::tuple{param<&Params::side>(count, within(1, 100), "Points along each axis."),
+                 param<&Params::spacing>(metres, within(1e-3, 10), "Distance between neighbouring points.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

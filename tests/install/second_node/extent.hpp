@@ -16,8 +16,8 @@ struct Extent {
     Metrics metrics;
   };
   struct Params {};
-  static constexpr auto inputs = std::tuple{port(&In::cloud, "cloud", "At least one point.")};
-  static constexpr auto outputs = std::tuple{port(&Out::metrics, "metrics", "extent.x, extent.y, extent.z")};
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("At least one point.")};
+  static constexpr auto outputs = std::tuple{port<&Out::metrics>("extent.x, extent.y, extent.z")};
   static constexpr auto params = std::tuple{};
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -22,25 +22,25 @@ struct Fault {
     double work = 0;
     Mode mode = Mode::pass;
   };
-  static constexpr auto inputs = std::tuple{port(&In::after, "after", "Its first point is added to all of them.")};
-  static constexpr auto outputs = std::tuple{port(&Out::cloud, "cloud", "Points."), port(&Out::sum, "sum", "A sum.")};
-  static constexpr auto params = std::tuple{
-      param(&Params::number, "number", unitless, unbounded, "Makes the points differ."),
-      param(&Params::points, "points", count, within(1, 1e8), "How many."),
-      param(&Params::work, "work", seconds, within(0, 100), "How long it takes."),
-      param(&Params::mode, "mode",
-            {{"pass", Mode::pass},
-             {"abort", Mode::abort},
-             {"hang", Mode::hang},
-             {"nan", Mode::nan},
-             {"flood", Mode::flood},
-             {"fickle", Mode::fickle},
-             {"segv", Mode::segv},
-             {"exit", Mode::exit},
-             {"devour", Mode::devour}},
-            "hang: until the run is cancelled; nan: the sum is no number; flood: prints 100 MB; fickle: the "
-            "points depend on the time; exit: ends the process with 7; devour: takes ever more memory, up to "
-            "1 GB.")};
+  static constexpr auto inputs = std::tuple{port<&In::after>("Its first point is added to all of them.")};
+  static constexpr auto outputs = std::tuple{port<&Out::cloud>("Points."), port<&Out::sum>("A sum.")};
+  static constexpr auto params =
+      std::tuple{param<&Params::number>(unitless, unbounded, "Makes the points differ."),
+                 param<&Params::points>(count, within(1, 1e8), "How many."),
+                 param<&Params::work>(seconds, within(0, 100), "How long it takes."),
+                 param<&Params::mode>(
+                     {{"pass", Mode::pass},
+                      {"abort", Mode::abort},
+                      {"hang", Mode::hang},
+                      {"nan", Mode::nan},
+                      {"flood", Mode::flood},
+                      {"fickle", Mode::fickle},
+                      {"segv", Mode::segv},
+                      {"exit", Mode::exit},
+                      {"devour", Mode::devour}},
+                     "hang: until the run is cancelled; nan: the sum is no number; flood: prints 100 MB; fickle: the "
+                     "points depend on the time; exit: ends the process with 7; devour: takes ever more memory, up to "
+                     "1 GB.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

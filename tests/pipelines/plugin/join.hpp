@@ -14,8 +14,8 @@ struct Join {
     double points = 0;
   };
   struct Params {};
-  static constexpr auto inputs = std::tuple{port(&In::a, "a", "One cloud."), port(&In::b, "b", "The other one.")};
-  static constexpr auto outputs = std::tuple{port(&Out::points, "points", "How many.")};
+  static constexpr auto inputs = std::tuple{port<&In::a>("One cloud."), port<&In::b>("The other one.")};
+  static constexpr auto outputs = std::tuple{port<&Out::points>("How many.")};
   static constexpr auto params = std::tuple{};
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -20,15 +20,13 @@ struct Step {
     double value = 1.5;
     Mode mode = Mode::pass;
   };
-  static constexpr auto inputs = std::tuple{port(&In::after, "after", "Added to `value`.")};
-  static constexpr auto outputs =
-      std::tuple{port(&Out::value, "value", "The sum, and a random number if `value` is 0."),
-                 port(&Out::text, "text", "The same in words.")};
-  static constexpr auto params =
-      std::tuple{param(&Params::value, "value", metres, unbounded, "A length."),
-                 param(&Params::mode, "mode",
-                       {{"pass", Mode::pass}, {"fail", Mode::fail}, {"wait", Mode::wait}, {"ignore", Mode::ignore}},
-                       "ignore: waits, and does not listen to a cancellation.")};
+  static constexpr auto inputs = std::tuple{port<&In::after>("Added to `value`.")};
+  static constexpr auto outputs = std::tuple{port<&Out::value>("The sum, and a random number if `value` is 0."),
+                                             port<&Out::text>("The same in words.")};
+  static constexpr auto params = std::tuple{
+      param<&Params::value>(metres, unbounded, "A length."),
+      param<&Params::mode>({{"pass", Mode::pass}, {"fail", Mode::fail}, {"wait", Mode::wait}, {"ignore", Mode::ignore}},
+                           "ignore: waits, and does not listen to a cancellation.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -13,9 +13,9 @@ struct Write {
   struct Params {
     OutputPath path{"value.txt"};
   };
-  static constexpr auto inputs = std::tuple{port(&In::value, "value", "The number.")};
+  static constexpr auto inputs = std::tuple{port<&In::value>("The number.")};
   static constexpr auto outputs = std::tuple{};
-  static constexpr auto params = std::tuple{param(&Params::path, "path", "The file.")};
+  static constexpr auto params = std::tuple{param<&Params::path>("The file.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -8,7 +8,7 @@ namespace {
 TEST(FilterNone, HandsItsInputOnWithoutACopy) {
   Context context;
   const auto cloud = input(Cloud{});
-  EXPECT_EQ(None::run({cloud}, {}, context).cloud, cloud);
+  EXPECT_EQ(None::run({cloud}).cloud, cloud);
 }
 
 }  // namespace

@@ -317,7 +317,7 @@ TEST_F(GlbFiles, UnsoundTexturesAreRefused) {
 
 /// A simulated flat as the scan shows it, with its true structure and a ball of 2,000 coloured triangles.
 Mesh flat_with_ball(Textures& textures, Context& context) {
-  const auto scene = synth::Flat::run({}, {}, context).scene;
+  const auto scene = synth::Flat::run({}, context).scene;
   synth::Scan::Params params;
   params.points = 100000;
   params.offset = {500000, 5400000, 100};

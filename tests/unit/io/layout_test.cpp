@@ -47,8 +47,8 @@ GroundTruth turned(SimulatedScene scene) {
 }
 
 TEST_F(Layout, TruthComesBackBitByBit) {
-  for (auto scene : {synth::Flat::run({}, {}, context).scene, synth::TwoStoreys::run({}, {}, context).scene,
-                     synth::Attic::run({}, {}, context).scene}) {
+  for (auto scene : {synth::Flat::run({}, context).scene, synth::TwoStoreys::run({}, context).scene,
+                     synth::Attic::run({}, context).scene}) {
     for (const auto& truth : {scene.truth, turned(scene)}) {
       WriteTruth::run({input(truth)}, {{"truth.json"}}, context);
       const auto read = ReadLayout::run({}, {{path("truth.json")}}, context);
@@ -59,7 +59,7 @@ TEST_F(Layout, TruthComesBackBitByBit) {
 }
 
 TEST_F(Layout, TruthWithoutAMeshIsCutIntoTriangles) {
-  const auto truth = turned(synth::Attic::run({}, {}, context).scene);
+  const auto truth = turned(synth::Attic::run({}, context).scene);
   WriteTruth::run({input(truth)}, {{"truth.json"}}, context);
   const auto text = content("truth.json");
   const auto cut = file("cut.json", text.substr(0, text.find(",\n\"mesh\"")) + "\n}\n");
@@ -76,7 +76,7 @@ TEST_F(Layout, TruthWithoutAMeshIsCutIntoTriangles) {
 }
 
 TEST_F(Layout, PlansOfTurnedTruthStandUpright) {
-  const auto scene = synth::Flat::run({}, {}, context).scene;
+  const auto scene = synth::Flat::run({}, context).scene;
   double area = 0;
   for (const auto& room : scene.truth.rooms) area += area_vector(room.outline).norm();
   WriteTruth::run({input(turned(scene))}, {{"truth.json"}}, context);

@@ -47,9 +47,9 @@ inline Layout laid_out(const PlanePrimitives& planes) {
   const auto cells = input(layout::Partition::run({structure}, {}, context).cells);
   const auto rooms = input(layout::Rooms::run({cells}, {}, context).cells);
   result.cells = layout::Heights::run({rooms}, {}, context).cells;
-  const auto closed = input(layout::Faces::run({input(result.cells), structure}, {}, context).building);
+  const auto closed = input(layout::Faces::run({input(result.cells), structure}, context).building);
   result.building = layout::Openings::run({closed, structure}, {}, context).building;
-  result.meshes = layout::Mesh::run({input(result.building), {}}, {}, context);
+  result.meshes = layout::Mesh::run({input(result.building), {}}, {});
   return result;
 }
 

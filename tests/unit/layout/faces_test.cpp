@@ -27,7 +27,7 @@ Result faces_of(const std::vector<StoreyCells>& storeys) {
   cells.storeys = storeys;
   Result result;
   Context context(1, result.warnings);
-  result.building = Faces::run({input(cells), input(structure)}, {}, context).building;
+  result.building = Faces::run({input(cells), input(structure)}, context).building;
   return result;
 }
 std::string refusal(const std::vector<StoreyCells>& storeys) {

@@ -38,8 +38,8 @@ Layout built(const Proposal& proposal) {
   Context context(1, layout.warnings);
   layout.cells = *proposal.cells;
   layout.structure = *proposal.structure;
-  layout.building = Faces::run({proposal.cells, proposal.structure}, {}, context).building;
-  layout.meshes = Mesh::run({input(layout.building), {}}, {}, context);
+  layout.building = Faces::run({proposal.cells, proposal.structure}, context).building;
+  layout.meshes = Mesh::run({input(layout.building), {}}, {});
   return layout;
 }
 

@@ -28,7 +28,7 @@ GroundTruth empty_scene() {
   Context context;
   typename Scene::Params params;
   params.furniture = 0;
-  return Scene::run({}, params, context).scene.truth;
+  return Scene::run(params, context).scene.truth;
 }
 
 /// A box seen from inside, as the truth of a room and as a mesh.

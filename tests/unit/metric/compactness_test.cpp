@@ -71,11 +71,11 @@ TEST(MetricCompactness, ObjectsDoNotCountAndPiecesDo) {
 
 TEST(MetricCompactness, TruthOfScenes) {
   Context context;
-  const auto truth = synth::Room::run({}, {}, context).scene.truth;
+  const auto truth = synth::Room::run({}, context).scene.truth;
   const auto m = compactness(truth.mesh, truth);
   EXPECT_EQ(of(m, "polygons"), static_cast<double>(truth.faces.size()));
   EXPECT_GT(of(m, "ratio"), 1);  // the window and the door
-  const auto flat = synth::Flat::run({}, {}, context).scene.truth;
+  const auto flat = synth::Flat::run({}, context).scene.truth;
   EXPECT_EQ(of(compactness(flat.mesh, flat), "polygons"), static_cast<double>(flat.faces.size()));
 }
 
@@ -94,7 +94,7 @@ TEST(MetricCompactness, ACurvedWallCountsAsTheCoarsestChainOfItsSagitta) {
   EXPECT_EQ(corners(0.1), 10);  // 36.4°: every 72nd
   EXPECT_EQ(corners(0), 720);
   Context context;
-  const auto round = synth::RoundRoom::run({}, {}, context).scene.truth;
+  const auto round = synth::RoundRoom::run({}, context).scene.truth;
   // 23 chords of at most 7.6° on the half circle, and the rectangle's three sides.
   EXPECT_NEAR(of(compactness(round.mesh, round), "corners"), 29, 1);
   EXPECT_GT(round.rooms[0].outline.size(), 70U);

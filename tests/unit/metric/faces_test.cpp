@@ -9,7 +9,7 @@ namespace {
 
 Metrics faces(const Mesh& mesh) {
   Context context;
-  return Faces::run({input(mesh)}, {}, context).metrics;
+  return Faces::run({input(mesh)}).metrics;
 }
 
 TEST(MetricFaces, CountsARoom) {

@@ -18,7 +18,7 @@ using V = Eigen::Vector3d;
 template <class Scene>
 GroundTruth truth_of() {
   Context context;
-  return Scene::run({}, {}, context).scene.truth;
+  return Scene::run({}, context).scene.truth;
 }
 
 /// A building whose openings are the true ones.

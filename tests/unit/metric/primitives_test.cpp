@@ -135,7 +135,7 @@ TEST(MetricPrimitives, PlanesThatStandOffAndLean) {
 
 TEST(MetricPrimitives, TruthOfAScanAgreesWithItself) {
   Context context;
-  auto scene = input(synth::Flat::run({}, {}, context).scene);
+  auto scene = input(synth::Flat::run({}, context).scene);
   synth::Scan::Params params;
   params.points = 50000;
   params.yaw = 23;

@@ -167,8 +167,8 @@ FloorPlan plan_of(const GroundTruth& truth) {
 TEST(MetricRooms, TruthOfScenesAgreesWithItselfInAnyFrame) {
   Context context;
   for (const auto& truth :
-       {synth::Room::run({}, {}, context).scene.truth, synth::Flat::run({}, {}, context).scene.truth,
-        synth::TwoStoreys::run({}, {}, context).scene.truth, synth::Attic::run({}, {}, context).scene.truth}) {
+       {synth::Room::run({}, context).scene.truth, synth::Flat::run({}, context).scene.truth,
+        synth::TwoStoreys::run({}, context).scene.truth, synth::Attic::run({}, context).scene.truth}) {
     // The truth stands tilted and far away; the plan knows the way from there to its own, upright frame.
     Transform away;
     away.rotation =

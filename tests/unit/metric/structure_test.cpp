@@ -177,8 +177,8 @@ TEST(MetricStructure, AMissingDoorLeaf) {
 
 TEST(MetricStructure, TruthOfEverySceneAgreesWithItself) {
   Context context;
-  for (const auto& scene : {synth::Room::run({}, {}, context).scene, synth::TwoStoreys::run({}, {}, context).scene,
-                            synth::Attic::run({}, {}, context).scene}) {
+  for (const auto& scene : {synth::Room::run({}, context).scene, synth::TwoStoreys::run({}, context).scene,
+                            synth::Attic::run({}, context).scene}) {
     const auto m =
         Structure::run({input(scene.truth.mesh), OptionalInput<GroundTruth>(input(scene.truth)), {}}, {}, context);
     for (const auto* list : {&m.metrics, &m.curve})
@@ -201,7 +201,7 @@ TEST(MetricStructure, RigidMotionsOfBothSidesChangeNothing) {
 
 TEST(MetricStructure, TruthOfASceneAgreesWithItself) {
   Context context;
-  const auto scene = synth::Flat::run({}, {}, context).scene;
+  const auto scene = synth::Flat::run({}, context).scene;
   Mesh mesh = scene.truth.mesh;
   auto truth = scene.truth;
   truth.origin = truth.mesh.origin = {500000, 5400000, 100};

@@ -184,10 +184,10 @@ TEST(MetricValidity, TruthOfScenesIsWhatItIs) {
     EXPECT_EQ(of(m, "self_intersections.overlapping"), 0);
     EXPECT_GT(of(m, "edges.boundary"), 0);  // windows and doors
   };
-  check(synth::Room::run({}, {}, context).scene.truth);
-  check(synth::Flat::run({}, {}, context).scene.truth);
-  check(synth::TwoStoreys::run({}, {}, context).scene.truth);
-  check(synth::Attic::run({}, {}, context).scene.truth);
+  check(synth::Room::run({}, context).scene.truth);
+  check(synth::Flat::run({}, context).scene.truth);
+  check(synth::TwoStoreys::run({}, context).scene.truth);
+  check(synth::Attic::run({}, context).scene.truth);
 }
 
 TEST(MetricValidity, AnLShapedSolidIsClean) {
@@ -236,7 +236,7 @@ RC_GTEST_PROP(MetricValidity, OrderOfTrianglesAndMotionsChangeNothing, (std::uin
 
 TEST(MetricValidity, SameBytesWithAnyNumberOfThreads) {
   Context context;
-  const Mesh mesh = synth::Flat::run({}, {}, context).scene.truth.mesh;
+  const Mesh mesh = synth::Flat::run({}, context).scene.truth.mesh;
   std::set<std::string> hashes;
   for (const std::size_t threads : {1, 2, 4}) {
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

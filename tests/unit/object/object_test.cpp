@@ -142,7 +142,7 @@ TYPED_TEST(ObjectNode, GivesTheSameBytesAgain) {
 TEST(ObjectNone, IsEmptyAtTheCloudsOrigin) {
   Cloud cloud = sphere(100);
   cloud.origin = {1, 2, 3};
-  const Mesh mesh = mesh_of<None>(cloud);
+  const Mesh mesh = None::run({input(cloud)}).mesh;
   EXPECT_TRUE(mesh.vertices.empty());
   EXPECT_EQ(mesh.origin, cloud.origin);
 }

@@ -8,7 +8,7 @@ namespace {
 TEST(PlaneNone, HandsItsInputOnWithoutACopy) {
   Context context;
   const auto planes = input(PlanePrimitives{});
-  EXPECT_EQ(None::run({planes}, {}, context).planes, planes);
+  EXPECT_EQ(None::run({planes}).planes, planes);
 }
 
 }  // namespace

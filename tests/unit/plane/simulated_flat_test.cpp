@@ -24,7 +24,7 @@ synth::Scan::Out simulated_scan(Context& context) {
   params.angular_noise = 0;
   params.yaw = 23;
   params.tilt = 2.5;
-  return synth::Scan::run({input(synth::Flat::run({}, {}, context).scene)}, params, context);
+  return synth::Scan::run({input(synth::Flat::run({}, context).scene)}, params, context);
 }
 
 /// Every wall and ceiling is one primitive, turned to its room. The floors are one surface through the doorways.

@@ -24,7 +24,7 @@ PlaneMeshes wall_meshes(const test::Rooms& rooms) {
 VertexTranslation::Out translated(const PlaneMeshes& meshes, double limit = 0.5, double parallel = 0.001) {
   Context context;
   const auto graph = estimate::Adjacency::run({input(meshes)}, {limit}, context).adjacency;
-  return VertexTranslation::run({input(meshes), input(graph)}, {limit, parallel}, context);
+  return VertexTranslation::run({input(meshes), input(graph)}, {limit, parallel});
 }
 
 /// How many corners of the meshes stand on the vertical line through (x, y).
@@ -66,7 +66,7 @@ TEST(VertexTranslation, DoesNotReachFurtherThanItsLimit) {
   EXPECT_EQ(translated(t, 0.47).moved, 4);
   Context context;
   const auto graph = estimate::Adjacency::run({input(t)}, {0.5}, context).adjacency;
-  const auto short_reach = VertexTranslation::run({input(t), input(graph)}, {0.44, 0.001}, context);
+  const auto short_reach = VertexTranslation::run({input(t), input(graph)}, {0.44, 0.001});
   EXPECT_EQ(short_reach.moved, 2);  // only the other wall's, by 0.1 m
 }
 
@@ -134,14 +134,14 @@ TEST(VertexTranslation, FloorsAreNeitherMovedNorMovedTo) {
 TEST(VertexTranslation, RefusesAGraphOfOtherMeshes) {
   Context context;
   const auto meshes = input(wall_meshes(test::Rooms().wall(0, 0, 4, 0)));
-  EXPECT_THROW(VertexTranslation::run({meshes, input(Adjacency{})}, {}, context), Error);
-  EXPECT_EQ(VertexTranslation::run({input(PlaneMeshes{}), input(Adjacency{})}, {}, context).moved, 0);
+  EXPECT_THROW(VertexTranslation::run({meshes, input(Adjacency{})}, {}), Error);
+  EXPECT_EQ(VertexTranslation::run({input(PlaneMeshes{}), input(Adjacency{})}, {}).moved, 0);
 }
 
 TEST(RefineNone, HandsTheMeshesOn) {
   Context context;
   const auto meshes = input(wall_meshes(test::Rooms().wall(0, 0, 4, 0)));
-  EXPECT_EQ(None::run({meshes, {}, {}}, {}, context).meshes, meshes);
+  EXPECT_EQ(None::run({meshes, {}, {}}).meshes, meshes);
 }
 
 }  // namespace

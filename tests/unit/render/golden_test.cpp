@@ -15,7 +15,7 @@ namespace {
 class Golden : public testing::Test {
  protected:
   Golden() {
-    const auto scene = input(synth::Room::run({}, {}, context).scene);
+    const auto scene = input(synth::Room::run({}, context).scene);
     synth::Scan::Params params;
     params.points = 40000;
     params.outside = false;

@@ -18,8 +18,7 @@ TEST(ReadPicturesNode, ReadsPicturesInOrderAndFillsInWhatIsMissing) {
   write_png(grey(2, 2, 20), folder / "b.png");
   Context context;
   const auto out = ReadPictures::run(
-      {}, {{(folder / "none.png").string(), (folder / "a.png").string(), (folder / "b.png").string()}, {"first"}},
-      context);
+      {{(folder / "none.png").string(), (folder / "a.png").string(), (folder / "b.png").string()}, {"first"}}, context);
   const auto& pictures = out.pictures.pictures;
   ASSERT_EQ(pictures.size(), 3U);
   EXPECT_EQ(pictures[0].caption, "first (no picture)");
@@ -36,17 +35,17 @@ TEST(ReadPicturesNode, APictureThatIsNotWholeIsAnError) {
   const std::string whole = test::read_text(folder / "a.png");
   test::write_text(folder / "part.png", whole.substr(0, whole.size() / 2));
   Context context;
-  EXPECT_THROW(ReadPictures::run({}, {{(folder / "part.png").string()}, {}}, context), Error);
+  EXPECT_THROW(ReadPictures::run({{(folder / "part.png").string()}, {}}, context), Error);
 }
 
 TEST(ReadPicturesNode, SaysWhatIsWrong) {
   const test::TemporaryFolder folder;
   test::write_text(folder / "text.png", "no picture");
   Context context;
-  EXPECT_THROW(ReadPictures::run({}, {}, context), Error);
-  EXPECT_THROW(ReadPictures::run({}, {{(folder / "none.png").string()}, {}}, context), Error);
-  EXPECT_THROW(ReadPictures::run({}, {{(folder / "text.png").string()}, {}}, context), Error);
-  EXPECT_THROW(ReadPictures::run({}, {{(folder / "text.png").string()}, {"a", "b"}}, context), Error);
+  EXPECT_THROW(ReadPictures::run({}, context), Error);
+  EXPECT_THROW(ReadPictures::run({{(folder / "none.png").string()}, {}}, context), Error);
+  EXPECT_THROW(ReadPictures::run({{(folder / "text.png").string()}, {}}, context), Error);
+  EXPECT_THROW(ReadPictures::run({{(folder / "text.png").string()}, {"a", "b"}}, context), Error);
 }
 
 }  // namespace

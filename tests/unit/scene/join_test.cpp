@@ -30,7 +30,7 @@ Mesh chair() {
 
 Join::Out join(const Mesh& structure, OptionalInput<Mesh> objects = {}, OptionalInput<Transform> transform = {}) {
   Context context;
-  return Join::run({input(structure), std::move(objects), std::move(transform)}, {}, context);
+  return Join::run({input(structure), std::move(objects), std::move(transform)});
 }
 
 TEST(Join, HasTheStructureFirstAndTheObjectsAfterIt) {

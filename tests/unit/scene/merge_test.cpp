@@ -42,7 +42,7 @@ void expect_full_columns(const Mesh& mesh) {
 
 TEST(SceneMerge, EveryTriangleKeepsItsClassStoreyAndPrimitive) {
   Context context;
-  const auto out = Merge::run({input(some_meshes()), input(some_object()), {}}, {}, context);
+  const auto out = Merge::run({input(some_meshes()), input(some_object()), {}}, {});
   for (const auto* mesh : {&out.structure, &out.objects, &out.scene, &out.scene_without_ceiling})
     expect_full_columns(*mesh);
   EXPECT_EQ(out.structure.primitives, (std::vector<std::int32_t>{3, 3, 3, 1, 1, 7, 7}));
@@ -60,7 +60,7 @@ TEST(SceneMerge, EveryTriangleKeepsItsClassStoreyAndPrimitive) {
 TEST(SceneMerge, FansKeepAreaAndSide) {
   Context context;
   const auto meshes = some_meshes();
-  const auto out = Merge::run({input(meshes), {}, {}}, {}, context);
+  const auto out = Merge::run({input(meshes), {}, {}}, {});
   double area = 0;
   for (std::size_t t = 0; t < out.structure.triangles.size(); ++t) {
     const auto& tri = out.structure.triangles[t];
@@ -76,11 +76,11 @@ TEST(SceneMerge, FansKeepAreaAndSide) {
 
 TEST(SceneMerge, BringsOriginsTogether) {
   Context context;
-  const auto out = Merge::run({input(some_meshes()), input(some_object()), {}}, {}, context);
+  const auto out = Merge::run({input(some_meshes()), input(some_object()), {}}, {});
   const std::size_t first = out.structure.vertices.size();
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_NEAR((place(out.scene, first + i) - (some_object().origin + some_object().vertices[i])).norm(), 0, 1e-12);
-  const auto only = Merge::run({input(PlaneMeshes{}), input(some_object()), {}}, {}, context);
+  const auto only = Merge::run({input(PlaneMeshes{}), input(some_object()), {}}, {});
   EXPECT_EQ(only.scene.origin, some_object().origin);
 }
 
@@ -93,7 +93,7 @@ TEST(SceneMerge, GoesBackToTheInputFrameUnlessTold) {
   PlaneMeshes meshes = some_meshes();
   const Vector3d utm(500000, 5400000, 300);
   meshes.origin = t.rotation * utm + t.translation;
-  const auto out = Merge::run({input(meshes), {}, input(t)}, {}, context);
+  const auto out = Merge::run({input(meshes), {}, input(t)}, {});
   EXPECT_NEAR((out.structure.origin - utm).norm(), 0, 1e-6);
   for (std::size_t i = 0; i < out.structure.vertices.size(); ++i) {
     const Vector3d aligned = t.rotation * place(out.structure, i) + t.translation;
@@ -105,30 +105,30 @@ TEST(SceneMerge, GoesBackToTheInputFrameUnlessTold) {
   }
   Merge::Params params;
   params.frame = Frame::aligned;
-  const auto aligned = Merge::run({input(meshes), {}, input(t)}, params, context);
+  const auto aligned = Merge::run({input(meshes), {}, input(t)}, params);
   EXPECT_EQ(aligned.structure.origin, meshes.origin);
   EXPECT_EQ(aligned.structure.vertices.front(), meshes.meshes.front().corners.front());
 }
 
 TEST(SceneMerge, ColoursByClassUnlessTold) {
   Context context;
-  const auto out = Merge::run({input(some_meshes()), input(some_object()), {}}, {}, context);
+  const auto out = Merge::run({input(some_meshes()), input(some_object()), {}}, {});
   EXPECT_EQ(out.scene.colours.size(), out.scene.vertices.size());
   EXPECT_NE(out.structure.colours.front(), out.structure.colours.back());
   Mesh painted = some_object();
   painted.colours = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
-  EXPECT_EQ(Merge::run({input(some_meshes()), input(painted), {}}, {}, context).objects.colours, painted.colours);
+  EXPECT_EQ(Merge::run({input(some_meshes()), input(painted), {}}, {}).objects.colours, painted.colours);
   Merge::Params plain;
   plain.class_colours = false;
-  EXPECT_TRUE(Merge::run({input(some_meshes()), input(some_object()), {}}, plain, context).scene.colours.empty());
-  const auto mixed = Merge::run({input(some_meshes()), input(painted), {}}, plain, context);
+  EXPECT_TRUE(Merge::run({input(some_meshes()), input(some_object()), {}}, plain).scene.colours.empty());
+  const auto mixed = Merge::run({input(some_meshes()), input(painted), {}}, plain);
   EXPECT_EQ(mixed.objects.colours, painted.colours);
   EXPECT_EQ(mixed.scene.colours.size(), mixed.scene.vertices.size());
 }
 
 TEST(SceneMerge, OfNothingIsEmpty) {
   Context context;
-  const auto out = Merge::run({input(PlaneMeshes{}), {}, {}}, {}, context);
+  const auto out = Merge::run({input(PlaneMeshes{}), {}, {}}, {});
   EXPECT_TRUE(out.scene.triangles.empty());
   EXPECT_TRUE(out.scene.vertices.empty());
 }

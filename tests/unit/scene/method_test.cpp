@@ -26,9 +26,9 @@ Mesh simplified(const PlanePrimitives& planes, const segment::Structure::Params&
   const auto structure = input(segments.structure);
   const auto meshes = input(estimate::PlaneMeshes::run({structure}, {}, context).meshes);
   const auto graph = input(estimate::Adjacency::run({meshes}, {}, context).adjacency);
-  const auto closed = input(refine::VertexTranslation::run({meshes, graph}, {}, context).meshes);
+  const auto closed = input(refine::VertexTranslation::run({meshes, graph}, {}).meshes);
   const auto clipped = input(refine::MeshClipping::run({closed, graph, structure}, {}, context).meshes);
-  return Merge::run({clipped, {}, input(aligned.transform)}, {}, context).structure;
+  return Merge::run({clipped, {}, input(aligned.transform)}, {}).structure;
 }
 
 double area_of(const Mesh& mesh, SurfaceClass surface) {

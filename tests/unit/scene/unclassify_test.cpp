@@ -15,7 +15,7 @@ TEST(SceneUnclassify, KeepsTheSurfaceAndNothingThatNamesIt) {
   mesh.storeys = {0};
   mesh.primitives = {7};
   Context context;
-  const Mesh result = Unclassify::run({input(mesh)}, {}, context).mesh;
+  const Mesh result = Unclassify::run({input(mesh)}).mesh;
   EXPECT_EQ(result.origin, mesh.origin);
   EXPECT_EQ(result.vertices, mesh.vertices);
   EXPECT_EQ(result.triangles, mesh.triangles);

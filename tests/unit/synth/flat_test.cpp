@@ -9,7 +9,7 @@ namespace {
 
 SimulatedScene flat(const Flat::Params& params = {}, std::uint64_t seed = 1) {
   Context context(seed, std::make_shared<ContextHost>());
-  return Flat::run({}, params, context).scene;
+  return Flat::run(params, context).scene;
 }
 
 TEST(SynthFlat, IsExactAndClosed) {

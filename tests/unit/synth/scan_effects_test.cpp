@@ -21,7 +21,7 @@ using V = Eigen::Vector3d;
 template <class Scene>
 Input<SimulatedScene> built() {
   Context context;
-  return input(Scene::run({}, {}, context).scene);
+  return input(Scene::run({}, context).scene);
 }
 /// A cube of 4 m, seen from (1, 2, 1.5); `change` adds to it.
 Input<SimulatedScene> cube(const std::function<void(Building&)>& change) {

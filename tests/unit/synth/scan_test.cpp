@@ -17,7 +17,7 @@ namespace {
 Input<SimulatedScene> flat() {
   static const auto scene = [] {
     Context context;
-    return input(Flat::run({}, {}, context).scene);
+    return input(Flat::run({}, context).scene);
   }();
   return scene;
 }

@@ -19,7 +19,7 @@ namespace {
 template <class Scene>
 SimulatedScene build(const typename Scene::Params& params = {}, std::uint64_t seed = 1) {
   Context context(seed, std::make_shared<ContextHost>());
-  return Scene::run({}, params, context).scene;
+  return Scene::run(params, context).scene;
 }
 
 /// Every position sees surfaces from their front all around, but through windows: it stands in the building, in no

@@ -18,7 +18,7 @@ namespace {
 template <class Scene>
 SimulatedScene build(const typename Scene::Params& params = {}, std::uint64_t seed = 1) {
   Context context(seed, std::make_shared<ContextHost>());
-  return Scene::run({}, params, context).scene;
+  return Scene::run(params, context).scene;
 }
 double floor_area(const GroundTruth& truth, std::size_t room) { return area_vector(truth.rooms[room].outline).norm(); }
 

@@ -32,7 +32,7 @@ constexpr double pi = std::numbers::pi;
 template <class Scene>
 SimulatedScene build(const typename Scene::Params& params = {}, std::uint64_t seed = 1) {
   Context context(seed, std::make_shared<ContextHost>());
-  return Scene::run({}, params, context).scene;
+  return Scene::run(params, context).scene;
 }
 template <class Scene>
 std::vector<double> volumes(const typename Scene::Params& params = {}) {

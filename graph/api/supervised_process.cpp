@@ -1,8 +1,9 @@
-#include "modules/baseline/supervised_process.hpp"
+#include "graph/api/supervised_process.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <spawn.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -19,10 +20,11 @@
 #include <sstream>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "graph/api/error.hpp"
 
-namespace atrium::baseline {
+namespace atrium {
 namespace {
 
 std::string reason(int number) { return std::generic_category().message(number); }
@@ -30,20 +32,6 @@ std::string reason(int number) { return std::generic_category().message(number);
 bool is_program(const std::filesystem::path& file) {
   std::error_code ignored;
   return std::filesystem::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0;
-}
-
-std::filesystem::path program_file(const std::string& name) {
-  if (name.find('/') != std::string::npos) {
-    if (is_program(name)) return std::filesystem::absolute(name);
-    throw Error(fmt::format("there is no program '{}'", name), "give the path of a file that can be executed");
-  }
-  const char* list = std::getenv("PATH");
-  std::istringstream folders(list != nullptr ? list : "/usr/bin:/bin");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const auto file = std::filesystem::path(folder.empty() ? "." : folder) / name;
-    if (!name.empty() && is_program(file)) return std::filesystem::absolute(file);
-  }
-  throw Error(fmt::format("there is no program '{}'", name), "install it, or give its path; it was looked for in PATH");
 }
 
 struct Message {
@@ -55,7 +43,7 @@ struct Message {
 struct Prepared {
   std::string program, folder;
   std::vector<char*> arguments;
-  int input = -1, log = -1, messages = -1;
+  int input = -1, log = -1, messages = -1, events = -1;
   rlim_t address_space = RLIM_INFINITY;
 };
 
@@ -64,29 +52,39 @@ void send(int to, Message message) {
   if (::write(to, &message, sizeof message) < 0) return;
 }
 
-[[noreturn]] void become(const Prepared& p) {
+[[noreturn]] void become(const Prepared& p, pid_t supervisor) {
   ::setpgid(0, 0);
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
-  ::signal(SIGPIPE, SIG_DFL);
+  for (const int signal : {SIGPIPE, SIGCHLD, SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != supervisor) ::_exit(127);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   const rlimit space{p.address_space, p.address_space};
   const bool ready = (p.address_space == RLIM_INFINITY || ::setrlimit(RLIMIT_AS, &space) == 0) &&
                      ::dup2(p.input, STDIN_FILENO) >= 0 && ::dup2(p.log, STDOUT_FILENO) >= 0 &&
-                     ::dup2(p.log, STDERR_FILENO) >= 0 && ::chdir(p.folder.c_str()) == 0;
+                     ::dup2(p.log, STDERR_FILENO) >= 0 &&
+                     (p.events < 0 || ::dup2(p.events, SupervisedProcess::events_file) >= 0) &&
+                     (p.folder.empty() || ::chdir(p.folder.c_str()) == 0);
   if (ready) ::execv(p.program.c_str(), p.arguments.data());
   send(p.messages, {Message::failed, errno});
   ::_exit(127);
 }
 
-[[noreturn]] void supervise(const Prepared& p) {
+[[noreturn]] void supervise(const Prepared& p, pid_t parent) {
   ::setpgid(0, 0);  // signals of the terminal are for the run
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(127);
   ::signal(SIGPIPE, SIG_IGN);
+  ::signal(SIGCHLD, SIG_DFL);  // if it is ignored, the end of a child is not told
+  ::signal(SIGINT, SIG_IGN);   // what the run's handlers do is not for this process
+  ::signal(SIGTERM, SIG_IGN);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+  const pid_t self = ::getpid();
   const pid_t program = ::fork();
-  if (program == 0) become(p);
+  if (program == 0) become(p, self);
   // Other ends of other pipes, and those of this one: nobody shall wait for them.
   const long most = std::min(::sysconf(_SC_OPEN_MAX), 65536L);
   for (int i = 0; i < most; ++i)
@@ -147,34 +145,90 @@ double high_water_mebibytes(pid_t process) {
   return 0;
 }
 
+/// Not one of the numbers that a child's standard streams and events have, which a parent without them would give.
+int out_of_the_way(int descriptor) {
+  constexpr int first = 10;
+  if (descriptor < 0 || descriptor >= first) return descriptor;
+  const int moved = ::fcntl(descriptor, F_DUPFD_CLOEXEC, first);
+  ::close(descriptor);
+  return moved;
+}
+
+/// A pipe whose reading end does not wait.
+bool make_pipe(int& read, int& write) {
+  std::array<int, 2> ends{-1, -1};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return false;
+  read = out_of_the_way(ends[0]);
+  write = out_of_the_way(ends[1]);
+  return read >= 0 && write >= 0 && ::fcntl(read, F_SETFL, O_NONBLOCK) == 0;
+}
+
+/// What is there, but not for ever from a program that prints without end. At its end the file is closed.
+void append_all(int& file, std::string& text) {
+  constexpr int most_at_once = 64;
+  std::array<char, 65536> bytes{};
+  for (int i = 0; i < most_at_once && file >= 0; ++i) {
+    const ssize_t size = ::read(file, bytes.data(), bytes.size());
+    if (size < 0) return;
+    if (size == 0) ::close(std::exchange(file, -1));
+    text.append(bytes.data(), static_cast<std::size_t>(size));
+  }
+}
+
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 }  // namespace
 
-SupervisedProcess::SupervisedProcess(std::vector<std::string> arguments, const std::filesystem::path& folder,
-                                     double mebibytes) {
-  Prepared p{program_file(arguments.at(0)).string(), folder.string(), {}};
+std::filesystem::path program_file(const std::string& name) {
+  if (name.find('/') != std::string::npos) {
+    if (is_program(name)) return std::filesystem::absolute(name);
+    throw Error(fmt::format("there is no program '{}'", name), "give the path of a file that can be executed");
+  }
+  const char* list = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe)
+  std::istringstream folders(list != nullptr ? list : "/usr/bin:/bin");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const auto file = std::filesystem::path(folder.empty() ? "." : folder) / name;
+    if (!name.empty() && is_program(file)) return std::filesystem::absolute(file);
+  }
+  throw Error(fmt::format("there is no program '{}'", name), "install it, or give its path; it was looked for in PATH");
+}
+
+int run_program(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = arguments;
+  std::vector<char*> list;
+  list.reserve(words.size() + 1);
+  for (auto& word : words) list.push_back(word.data());
+  list.push_back(nullptr);
+  const std::string program = program_file(words.at(0)).string();
+  pid_t process = -1;
+  if (const int problem = ::posix_spawn(&process, program.c_str(), nullptr, nullptr, list.data(), environ);
+      problem != 0)
+    throw Error(fmt::format("cannot start {}: {}", program, reason(problem)));
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0)
+    if (errno != EINTR) throw Error(fmt::format("cannot wait for {}: {}", program, reason(errno)));
+  return status;
+}
+
+SupervisedProcess::SupervisedProcess(const Start& start) {
+  std::vector<std::string> arguments = start.arguments;
+  Prepared p{program_file(arguments.at(0)).string(), start.folder.string(), {}};
   for (auto& a : arguments) p.arguments.push_back(a.data());
   p.arguments.push_back(nullptr);
-  if (mebibytes > 0) p.address_space = static_cast<rlim_t>(mebibytes * 1024 * 1024);
-  std::array<int, 2> log{-1, -1}, messages{-1, -1};
-  p.input = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
-  const bool ready = p.input >= 0 && ::pipe2(log.data(), O_CLOEXEC) == 0 && ::pipe2(messages.data(), O_CLOEXEC) == 0;
-  log_ = log[0];
-  messages_ = messages[0];
-  p.log = log[1];
-  p.messages = messages[1];
+  if (start.mebibytes > 0) p.address_space = static_cast<rlim_t>(start.mebibytes * 1024 * 1024);
+  p.input = out_of_the_way(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+  bool ready = p.input >= 0 && make_pipe(log_, p.log) && make_pipe(messages_, p.messages);
+  if (start.tells) ready = ready && make_pipe(events_, p.events);
+  const pid_t parent = ::getpid();
   if (ready) supervisor_ = ::fork();
-  if (supervisor_ == 0) supervise(p);
+  if (supervisor_ == 0) supervise(p, parent);
   const int number = errno;
-  for (const int descriptor : {p.input, p.log, p.messages})
+  for (const int descriptor : {p.input, p.log, p.messages, p.events})
     if (descriptor >= 0) ::close(descriptor);
   if (supervisor_ < 0) {
     close_all();
     throw Error(fmt::format("cannot start {}: {}", p.program, reason(number)));
   }
-  ::fcntl(log_, F_SETFL, O_NONBLOCK);
-  ::fcntl(messages_, F_SETFL, O_NONBLOCK);
 }
 
 SupervisedProcess::~SupervisedProcess() {
@@ -183,7 +237,7 @@ SupervisedProcess::~SupervisedProcess() {
 }
 
 void SupervisedProcess::close_all() {
-  for (int* descriptor : {&log_, &messages_}) {
+  for (int* descriptor : {&log_, &messages_, &events_}) {
     if (*descriptor >= 0) ::close(*descriptor);
     *descriptor = -1;
   }
@@ -195,23 +249,29 @@ void SupervisedProcess::wait(int milliseconds, std::string& printed) {
   // Nobody else can print any more: do not turn round and round at the closed pipe.
   if ((waited[1].revents & (POLLIN | POLLHUP)) == POLLHUP && !status_) ::poll(waited.data(), 1, milliseconds);
   read_messages();  // before the log: what was printed before the end is there
-  constexpr int most_at_once = 64;
-  std::array<char, 65536> bytes{};
-  for (int i = 0; i < most_at_once; ++i) {
-    const ssize_t size = ::read(log_, bytes.data(), bytes.size());
-    if (size <= 0) break;
-    printed.append(bytes.data(), static_cast<std::size_t>(size));
-  }
+  append_all(log_, printed);
   look_at_memory();
 }
 
+void SupervisedProcess::read(std::string& printed, std::string& events) {
+  read_messages();
+  append_all(log_, printed);
+  append_all(events_, events);
+}
+
 void SupervisedProcess::read_messages() {
+  if (messages_ < 0) return;
+  constexpr auto whole = static_cast<ssize_t>(sizeof(Message));
   Message message{};
-  while (::read(messages_, &message, sizeof message) == sizeof message) {
+  ssize_t size = 0;
+  while ((size = ::read(messages_, &message, sizeof message)) == whole) {
     if (message.kind == Message::started) program_ = message.value;
     if (message.kind == Message::failed) failure_ = message.value;
     if (message.kind == Message::ended) status_ = message.value;
   }
+  if (size != 0) return;
+  ::close(std::exchange(messages_, -1));
+  if (!status_ && !failure_) status_ = SIGKILL;  // somebody has killed the supervisor, and with it the program
 }
 
 void SupervisedProcess::look_at_memory() {
@@ -222,9 +282,7 @@ void SupervisedProcess::look_at_memory() {
   for (const pid_t process : descendants(supervisor_)) peak_ = std::max(peak_, high_water_mebibytes(process));
 }
 
-void SupervisedProcess::terminate() const {
-  if (program_ > 0 && !status_) ::kill(-program_, SIGTERM);
-}
+bool SupervisedProcess::terminate() const { return status_ || (program_ > 0 && ::kill(-program_, SIGTERM) == 0); }
 
 void SupervisedProcess::end() {
   if (supervisor_ <= 0) return;
@@ -242,4 +300,4 @@ void SupervisedProcess::end() {
   supervisor_ = -1;
 }
 
-}  // namespace atrium::baseline
+}  // namespace atrium

@@ -1,4 +1,4 @@
-#include "graph/run/clocks.hpp"
+#include "graph/api/clocks.hpp"
 
 #include <sys/resource.h>
 #include <unistd.h>
