@@ -20,7 +20,11 @@ constexpr double free_enough = 3;        // metres: a longer way is no freer
 constexpr std::size_t most_places = 64;  // of a plane, that cast rays
 constexpr double undecided = 0.1;        // a smaller share of difference between the sides says nothing
 constexpr double edge_on = 0.1;          // metres: a position so near to a plane does not tell its sides
+constexpr double clear = 0.2;            // a larger one needs no look at the rim
+constexpr double nothing = 0.1;          // of the rim, where a side meets nothing
 constexpr double least_visible = 0.25;   // of a plane's places, for one position to speak for it
+constexpr double rim_distance = 0.2;     // metres from the plane: wider than a partition, narrower than a corridor
+constexpr double rim_tolerance = 0.25;   // metres
 
 /// Directions about +z: straight, and six each at 45° and 70° from it.
 std::vector<Eigen::Vector3d> directions_about_z() {
@@ -65,12 +69,12 @@ class SeenFrom {
   /// where the share is clear.
   double by_free_space(const PlanePrimitive& primitive) const {
     if (grid_ == nullptr) return 0;
-    constexpr double clear = 0.4;
+    constexpr double certain = 0.4;
     constexpr std::size_t parts = 4;
     const Eigen::Quaterniond turn = turn_between(Eigen::Vector3d::UnitZ(), primitive.plane.normal);
     const std::vector<std::uint32_t> places = places_of(primitive);
     double before = 0, behind = 0, share = 0;
-    for (std::size_t part = 0; part < parts && std::abs(share) < clear; ++part) {
+    for (std::size_t part = 0; part < parts && std::abs(share) < certain; ++part) {
       for (std::size_t k = part; k < places.size(); k += parts) {
         const Eigen::Vector3d from = foot(primitive, places[k]);
         for (const Eigen::Vector3d& d : directions_) {
@@ -82,6 +86,32 @@ class SeenFrom {
       share = before + behind > 0 ? (before - behind) / (before + behind) : 0;
     }
     return share;
+  }
+
+  /// How much of the surface's rim meets something before it less how much does behind it, −1 to 1; 0 if both sides do.
+  /// Where a wall's points end there is a floor, a ceiling, another wall or what hides the wall: on the side of the
+  /// room. In a cavity between two rooms, or outside, there is nothing. (Inside of a thing that stands in a room there
+  /// may be more than before it, but before it there is the floor.)
+  double by_rim(const PlanePrimitive& primitive) const {
+    if (grid_ == nullptr) return 0;
+    constexpr int directions = 8;
+    const Eigen::Quaterniond turn = turn_between(Eigen::Vector3d::UnitZ(), primitive.plane.normal);
+    std::array<std::size_t, 2> met{};
+    std::size_t asked = 0;
+    for (const auto i : places_of(primitive))
+      for (int k = 0; k < directions; ++k) {
+        const double a = 2 * std::numbers::pi * k / directions;
+        const Eigen::Vector3d direction = turn * Eigen::Vector3d(std::cos(a), std::sin(a), 0);
+        const Eigen::Vector3d from = foot(primitive, i);
+        const double end = end_of_surface(primitive, from, direction);
+        if (end <= 0) continue;
+        ++asked;
+        for (const int side : {0, 1})
+          if (meets(primitive, from, direction, end, side == 0 ? 1 : -1)) ++met.at(static_cast<std::size_t>(side));
+      }
+    const double all = static_cast<double>(std::max<std::size_t>(asked, 1));
+    const double before = static_cast<double>(met[0]) / all, behind = static_cast<double>(met[1]) / all;
+    return std::min(before, behind) < nothing ? before - behind : 0;
   }
 
   double by_normals(const PlanePrimitive& primitive) const {
@@ -112,6 +142,35 @@ class SeenFrom {
     for (std::uint32_t k = c.begin; k < c.end; ++k)
       if (normal.dot(grid_->points()[k]) + offset > near) return true;
     return false;
+  }
+  /// How far the plane's own points go on in a direction; 0: further than a free way is looked at.
+  double end_of_surface(const PlanePrimitive& primitive, const Eigen::Vector3d& from,
+                        const Eigen::Vector3d& direction) const {
+    constexpr double gap = 0.3;  // metres: no points for so long is an end
+    const double near = std::max(0.02, 3 * primitive.residual);
+    double end = 0;
+    const bool stopped = walk(*grid_, from, direction, furthest, [&](std::uint32_t cell, double at) {
+      if (at > end + gap) return true;
+      const PointGrid::Cell& c = grid_->cells()[cell];
+      for (std::uint32_t k = c.begin; k < c.end; ++k)
+        if (std::abs(primitive.plane.signed_distance(grid_->points()[k].cast<double>())) <= near) {
+          end = at;
+          break;
+        }
+      return false;
+    });
+    return stopped || end + gap < furthest ? end : 0;
+  }
+  /// Whether something stands at the end of the surface on that side, and nothing before it.
+  bool meets(const PlanePrimitive& primitive, const Eigen::Vector3d& from, const Eigen::Vector3d& direction, double end,
+             double side) const {
+    double at = 0;
+    const Eigen::Vector3d beside = from + side * rim_distance * primitive.plane.normal;
+    const bool met = walk(*grid_, beside, direction, end + rim_tolerance, [&](std::uint32_t cell, double distance) {
+      at = distance;
+      return grid_->cells()[cell].end > grid_->cells()[cell].begin;
+    });
+    return met && at >= end - rim_tolerance;
   }
   double way(const PlanePrimitive& primitive, const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
              double side) const {
@@ -150,6 +209,7 @@ Side side_of(const PlanePrimitive& primitive, const SeenFrom& seen) {
   side.by = Evidence::positions;
   if (vote == 0) {
     vote = seen.by_free_space(primitive);
+    if (std::abs(vote) < clear) vote += seen.by_rim(primitive);
     side.by = Evidence::free_space;
     if (std::abs(vote) < undecided && normals != 0) {
       vote = normals;

@@ -19,10 +19,12 @@ struct SeenSides {
 /// 2. Free space over the whole scene: rays leave places of the surface to both sides (straight, at 45° and at 70°)
 ///    until they meet points off the plane. A ray's length counts, at most 3 m; one that leaves the scene counts 0,
 ///    since the outside of a building is not seen. So a room is before a wall even where it is wide, and the 12 cm to
-///    its other face are not.
-/// 3. The cloud's normals (their axes never, only their signs), where the free space on both sides is alike.
+///    its other face are not. And the surface's rim: where its points end, rays along it at 20 cm meet a floor, a
+///    ceiling, another wall or furniture on the side of the room, and nothing in a cavity between two rooms. The shares
+///    of both are added.
+/// 3. The cloud's normals (their axes never, only their signs), where these say nothing.
 ///
-/// Cost: at most 64 places × 26 rays of 20 m for each plane; a grid over the points. Deterministic. The planes' sizes,
+/// Cost: at most 64 places × 50 rays of 20 m for each plane; a grid over the points. Deterministic. The planes' sizes,
 /// inliers and order do not change.
 SeenSides turn_to_seen_sides(PlanePrimitives& planes, const Context& context);
 

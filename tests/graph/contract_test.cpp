@@ -1,6 +1,10 @@
 // What a node type's tables must be: the compiler refuses the rest.
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <filesystem>
+#include <sstream>
+
 #include "graph/api/node.hpp"
 #include "tests/graph/test_nodes.hpp"
 #include "tests/support/temporary_folder.hpp"

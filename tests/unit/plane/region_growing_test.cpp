@@ -67,6 +67,21 @@ TEST(PlaneRegionGrowing, TurnsPlanesIntoTheirRoomsWhateverTheNormals) {
   }
 }
 
+// A cavity between two small rooms, wider than what is free before their walls: nothing stands at its rim.
+TEST(PlaneRegionGrowing, TurnsPlanesAwayFromACavityThatIsWiderThanTheRoomsAreFree) {
+  auto faces = box_faces({0, 0, 0}, {1.5, 2.8, 2.5}, true);
+  const auto add = [&](const std::vector<test::Face>& more) { faces.insert(faces.end(), more.begin(), more.end()); };
+  add(box_faces({2.25, 0, 0}, {3.75, 2.8, 2.5}, true));
+  const std::size_t walls = faces.size();
+  add(box_faces({0.7, 0.1, 0}, {1.18, 2.7, 2.4}, false));
+  add(box_faces({2.57, 0.1, 0}, {3.05, 2.7, 2.4}, false));
+  const PlanePrimitives planes = grow(sample(faces, {.points = 200000, .normals = false}));
+  for (const auto& match : match_faces(faces, planes)) {
+    if (match.face >= walls || std::abs(faces[match.face].normal().x()) < 0.9) continue;
+    EXPECT_LT(match.angle, 1) << "face " << match.face;
+  }
+}
+
 TEST(PlaneRegionGrowing, DerivesItsDistanceFromTheNoise) {
   const auto faces = box_faces({-2, -1.5, 0}, {2, 1.5, 2.5}, true);
   for (const double noise : {0.001, 0.008}) {
