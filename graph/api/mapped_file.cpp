@@ -1,15 +1,18 @@
 #include "graph/api/mapped_file.hpp"
 
 #include <fcntl.h>
+#include <linux/magic.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <map>
 #include <mutex>
 
 #include "graph/api/error.hpp"
@@ -84,9 +87,21 @@ void forget(const std::byte* data) {
     if (mapping.path != nullptr && mapping.begin == data) mapping.path = nullptr;
 }
 
+std::size_t half_of_memory() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
+  return static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(page);
+}
+
+/// Whether a pipe is in no folder, so that to open its place again is to read on in it.
+bool is_unnamed(int descriptor) {
+  struct statfs system {};
+  return ::fstatfs(descriptor, &system) == 0 && system.f_type == PIPEFS_MAGIC;
+}
+
 }  // namespace
 
-MappedFile::MappedFile(const std::filesystem::path& path, Kinds kinds) : path_(path.string()) {
+MappedFile::MappedFile(const std::filesystem::path& path, Kinds kinds, std::size_t most_of_pipe)
+    : path_(path.string()) {
   const Descriptor file(path_);
   if (file.number < 0) fail(path_, errno);
   struct stat status {};
@@ -94,7 +109,12 @@ MappedFile::MappedFile(const std::filesystem::path& path, Kinds kinds) : path_(p
   if (S_ISDIR(status.st_mode)) fail(path_, EISDIR);
   if (!S_ISREG(status.st_mode)) {
     if (kinds == Kinds::regular) fail(path_, EINVAL);
-    read_all(file.number);
+    if (!S_ISFIFO(status.st_mode))
+      throw Error("cannot read " + path_ + ": it is a device, not a file", "give a file or a pipe");
+    const std::size_t most = most_of_pipe > 0 ? most_of_pipe : half_of_memory();
+    buffer_ = is_unnamed(file.number) ? read_once(file.number, most) : read_pipe(file.number, most);
+    data_ = buffer_->data();
+    size_ = buffer_->size();
     return;
   }
   size_ = static_cast<std::size_t>(status.st_size);
@@ -113,17 +133,44 @@ MappedFile::~MappedFile() {
   ::munmap(mapping_, size_);
 }
 
-void MappedFile::read_all(int descriptor) {
+std::shared_ptr<const MappedFile::Bytes> MappedFile::read_pipe(int descriptor, std::size_t most) const {
   constexpr std::size_t block = std::size_t{1} << 20U;
-  for (;;) {
-    buffer_.resize(size_ + block);
-    const ssize_t got = ::read(descriptor, buffer_.data() + size_, block);
+  auto bytes = std::make_shared<Bytes>();
+  for (std::size_t size = 0;;) {
+    bytes->resize(size + block);
+    const ssize_t got = ::read(descriptor, bytes->data() + size, block);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) fail(path_, errno);
-    if (got == 0) break;
-    size_ += static_cast<std::size_t>(got);
+    size += static_cast<std::size_t>(got);
+    if (size > most)
+      throw Error("cannot read " + path_ + ": more than " + std::to_string(most) +
+                      " bytes come through this pipe, which has to fit into memory",
+                  "write them to a file, and give that");
+    if (got > 0) continue;
+    bytes->resize(size);
+    return bytes;
   }
-  data_ = buffer_.data();
+}
+
+std::shared_ptr<const MappedFile::Bytes> MappedFile::read_once(int descriptor, std::size_t most) const {
+  struct Kept {
+    std::mutex reading;
+    std::shared_ptr<const Bytes> bytes;
+  };
+  static std::mutex mutex;
+  static std::map<ino_t, std::shared_ptr<Kept>> all;  // by number: they are all in one file system
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0) fail(path_, errno);
+  std::shared_ptr<Kept> kept;
+  {
+    const std::lock_guard lock(mutex);
+    auto& place = all[status.st_ino];
+    if (!place) place = std::make_shared<Kept>();
+    kept = place;
+  }
+  const std::lock_guard lock(kept->reading);
+  if (!kept->bytes) kept->bytes = read_pipe(descriptor, most);
+  return kept->bytes;
 }
 
 }  // namespace atrium

@@ -2,6 +2,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,34 @@ int report_usage(const CLI::App& app, const CLI::ParseError& error, const std::v
   return atrium::cli::usage;
 }
 
-int report(const char* message, const std::string& help, int code) {
+int report(const std::string& message, const std::string& help, int code) {
   atrium::cli::print_error(message, help);
   return code;
+}
+
+// Says of an empty word, as a shell variable without a value gives it, where it stands. False if there is none.
+bool report_empty(const std::vector<std::string>& words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    const bool assigned = word.starts_with("--") && word.size() > 2 && word.find('=') == word.size() - 1;
+    if (!word.empty() && !assigned) continue;
+    std::string what = "argument " + std::to_string(i + 1) + " is empty";
+    if (assigned)
+      what = "the value of " + word.substr(0, word.size() - 1) + " is empty";
+    else if (i > 0 && words[i - 1].starts_with('-'))
+      what = "the value of " + words[i - 1] + " is empty";
+    atrium::cli::print_error(what, "a variable of the shell without a value? Give one, or leave it out");
+    return true;
+  }
+  return false;
+}
+
+// The text of an error of the library in plain words.
+std::string text_of(const std::filesystem::filesystem_error& error) {
+  std::error_code gone;
+  static_cast<void>(std::filesystem::current_path(gone));
+  if (gone) return "the working folder is not there any more (" + gone.message() + ")";
+  return error.path1().string() + ": " + error.code().message();
 }
 
 }  // namespace
@@ -70,6 +96,7 @@ int main(int argc, char** argv) {
   cli::add_cache(app, exit_code);
   cli::add_why(app, exit_code);
   cli::add_generate(app);
+  if (report_empty({argv + 1, argv + argc})) return cli::usage;
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help
@@ -80,6 +107,8 @@ int main(int argc, char** argv) {
     return report(error.what(), error.help(), cli::plugin);
   } catch (const atrium::Error& error) {
     return report(error.what(), error.help(), cli::failed);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return report(text_of(error), "go to a folder that is there, or give absolute paths", cli::failed);
   } catch (const std::exception& error) {
     return report(error.what(), {}, cli::failed);
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "graph/api/broken_link.hpp"
 #include "graph/api/plugin_data.hpp"
 
 namespace atrium {
@@ -81,7 +82,9 @@ GivenPipeline find_given_pipeline(const std::string& text, Findings& findings) {
   if (found.is_installed) return {found.path, found.path.string()};
   if (!fs::exists(fs::status(found.path, problem))) {
     const SourceFile source{text, folder};
-    findings.error({&source, {}}, "no such pipeline file", help_for_missing_pipeline(folder, text, findings));
+    const std::string link = broken_link(found.path);
+    findings.error({&source, {}}, link.empty() ? "no such pipeline file" : "no such pipeline file: it " + link,
+                   help_for_missing_pipeline(folder, text, findings));
   }
   return {std::move(found.path), text};
 }

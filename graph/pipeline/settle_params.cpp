@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "graph/api/broken_link.hpp"
 #include "graph/api/folder_lock.hpp"
 #include "graph/api/suggest.hpp"
 #include "graph/pipeline/expansion.hpp"
@@ -172,6 +173,11 @@ class ParamReader {
     path = full.string();
     std::error_code ignored;
     if (expansion_.any_files || std::filesystem::exists(full, ignored)) return;
+    if (const std::string link = broken_link(full); !link.empty()) {
+      findings_.error(where, fmt::format("no such file: {} {}", full.string(), link),
+                      "fetch what it stands for (dvc pull, git annex get), or give another file", origin);
+      return;
+    }
     std::vector<std::string> siblings;
     const bool folder = std::filesystem::is_directory(full.parent_path(), ignored);
     for (const auto& entry : std::filesystem::directory_iterator(full.parent_path(), ignored))
@@ -181,10 +187,12 @@ class ParamReader {
     if (base.picture)
       all.push_back(fmt::format("a picture names files as seen from the folder of its run; -s {}.{}=FILE names another",
                                 node_->path, info.name));
-    findings_.error(where, fmt::format("no such file: {}", full.string()),
-                    folder ? findings_.suggest(full.filename().string(), siblings)
-                           : fmt::format("there is no folder {}", full.parent_path().string()),
-                    std::move(all));
+    std::string help = "the working folder is not there any more: give an absolute path";
+    if (folder)
+      help = findings_.suggest(full.filename().string(), siblings);
+    else if (!full.parent_path().empty())
+      help = fmt::format("there is no folder {}", full.parent_path().string());
+    findings_.error(where, fmt::format("no such file: {}", full.string()), std::move(help), std::move(all));
   }
 
   void output_path(std::string& path, const ParamInfo& info, const Where& where,

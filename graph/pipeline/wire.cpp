@@ -258,6 +258,10 @@ class Wirer {
   }
 
   void report_unknown_node(const Scope& scope, const Reference& reference) {
+    const auto& nodes = scope.document->nodes;
+    const bool is_written = std::any_of(nodes.begin(), nodes.end(),
+                                        [&](const DocumentNode& node) { return node.id.text == reference.node; });
+    if (is_written && findings_.error_count() > 0) return;  // why it is not there has been said: too many nodes
     std::vector<std::string> names;
     if (findings_.may_suggest()) {
       for (const auto& node : scope.document->nodes) names.push_back(node.id.text);

@@ -15,6 +15,7 @@
 #include <sstream>
 #include <unordered_map>
 
+#include "graph/api/broken_link.hpp"
 #include "graph/pipeline/utf8.hpp"
 
 namespace atrium {
@@ -264,7 +265,10 @@ std::optional<std::string> read_yaml_text(const std::string& file, YamlTree& tre
   };
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) return unreadable("no such file");
+  if (!std::filesystem::exists(status)) {
+    const std::string link = broken_link(file);
+    return unreadable(link.empty() ? "no such file" : "it " + link);
+  }
   if (std::filesystem::is_directory(status)) return unreadable("it is a folder");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), &std::fclose);
   if (!stream) return unreadable(std::strerror(errno));  // NOLINT(concurrency-mt-unsafe)

@@ -1,10 +1,12 @@
 #include "graph/report/run_record.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "graph/api/fact_json.hpp"
 #include "graph/api/files.hpp"
+#include "graph/pipeline/utf8.hpp"
 #include "graph/pipeline/yaml_tree.hpp"
 #include "graph/run/record_json.hpp"
 
@@ -104,6 +106,21 @@ void read_parameters(const YamlNode& root, RunRecord& record) {
   }
 }
 
+/// The resolved pipeline. Names of folders may hold bytes that are no text in UTF-8: a mark stands for each.
+YamlTree read_resolved(const std::string& file) {
+  YamlTree tree;
+  const auto text = read_yaml_text(file, tree);
+  if (!text) return tree;
+  std::string clean;
+  for (std::string_view rest = *text; !rest.empty();) {
+    const std::size_t good = std::min(first_not_text(rest), rest.size());
+    clean += rest.substr(0, good);
+    if (good < rest.size()) clean += "\xEF\xBF\xBD";
+    rest.remove_prefix(std::min(good + 1, rest.size()));
+  }
+  return parse_yaml(clean);
+}
+
 }  // namespace
 
 json read_json(const fs::path& file) {
@@ -136,7 +153,7 @@ RunRecord read_run(const fs::path& folder) {
     throw Error(file.string() + " cannot be understood: " + error.what(),
                 "was it written by another version of Atrium?");
   }
-  const YamlTree tree = read_yaml((folder / "resolved.yaml").string());
+  const YamlTree tree = read_resolved((folder / "resolved.yaml").string());
   if (!tree.root)
     throw Error((folder / "resolved.yaml").string() + ": " +
                 (tree.problems.empty() ? "is empty" : tree.problems.front().message));

@@ -27,10 +27,17 @@ nlohmann::json read_manifest(const fs::path& folder) {
   return manifest;
 }
 
+/// The path without links; as it is where it has none, as a pipe's.
+fs::path without_links(const fs::path& file) {
+  std::error_code error;
+  fs::path real = fs::weakly_canonical(file, error);
+  return error ? file : real;
+}
+
 std::set<fs::path> files_read(const Pipeline& pipeline) {
   std::set<fs::path> files;
   for (const std::size_t n : all_nodes(pipeline))
-    for (const auto& file : input_files(pipeline[n])) files.insert(fs::weakly_canonical(file));
+    for (const auto& file : input_files(pipeline[n])) files.insert(without_links(file));
   return files;
 }
 
@@ -95,7 +102,7 @@ void RunFolder::remove_earlier_run() {
   const auto place = [&](const std::string& listed) { return place_inside(folder_, listed).value_or(fs::path()); };
   std::error_code ignored;
   const auto remove_unless_read = [&](const fs::path& file) {
-    if (fs::is_regular_file(file, ignored) && !needed.contains(fs::weakly_canonical(file))) fs::remove(file, ignored);
+    if (fs::is_regular_file(file, ignored) && !needed.contains(without_links(file))) fs::remove(file, ignored);
   };
   for (const auto& [path, bytes] : written_by(manifest)) {
     const fs::path file = place(path);

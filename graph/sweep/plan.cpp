@@ -14,6 +14,7 @@ namespace atrium {
 namespace {
 
 constexpr std::size_t most_variants = 100'000;
+constexpr std::size_t uncounted = 1'000'000'000'000'000'000;  ///< more combinations than this are not counted
 constexpr std::size_t most_errors = 100;
 
 /// Whether the chosen values fulfil all conditions of one `exclude`.
@@ -40,7 +41,8 @@ class Planner {
     check_exclude();
     if (const std::size_t combinations = count(); combinations > most_variants)
       findings_.error({&sweep_.source, {}},
-                      fmt::format("the sweep has {} combinations, more than {}", combinations, most_variants));
+                      fmt::format("the sweep has {}{} combinations, more than {}",
+                                  combinations == uncounted ? "over " : "", combinations, most_variants));
     std::vector<std::size_t> choices(sweep_.axes.size(), 0);
     bool more = findings_.error_count() == 0;
     while (more && findings_.error_count() + errors_.size() < most_errors) {
@@ -54,7 +56,10 @@ class Planner {
  private:
   std::size_t count() const {
     std::size_t total = 1;
-    for (const auto& axis : sweep_.axes) total = std::min(total * axis.choices.size(), most_variants * 1000);
+    for (const auto& axis : sweep_.axes) {
+      if (axis.choices.empty()) return 0;
+      total = total > uncounted / axis.choices.size() ? uncounted : total * axis.choices.size();
+    }
     return total;
   }
 

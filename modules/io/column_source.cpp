@@ -47,8 +47,8 @@ void ColumnSource::read(std::size_t block, PointBlock& to) const {
     const bool colour = role == Role::red || role == Role::green || role == Role::blue;
     if (!has(role) || (packed_ && colour)) continue;
     read_numbers(geometry_.column(role), first, count, to.values[r].data());
-    if (colour && colour_factor_ != 1)
-      for (double& v : to.values[r]) v *= colour_factor_;
+    if (!colour) continue;
+    for (double& v : to.values[r]) v = v * colour_factor_ > 255 ? 255 : v * colour_factor_;
   }
   if (packed_) {
     auto& red = to.of(Role::red);

@@ -137,6 +137,26 @@ Eigen::Vector3d choose_origin(const RawGeometry& geometry, double scale) {
   return origin;
 }
 
+void warn_of_lost_digits(const RawGeometry& geometry, const Eigen::Vector3d& origin, double scale,
+                         const Context& context) {
+  constexpr double fine = 0.001;  // metres
+  if (geometry.source || (!geometry.float_table && geometry.column(Role::x).type != Scalar::f32)) return;
+  double worst = 0;
+  int axis = 0;
+  for (int a = 0; a < 3; ++a) {  // float32 has 24 bits: far from zero the coordinates move in steps
+    const auto there = static_cast<float>(std::abs(origin[a]) / scale);
+    const double step = (std::nextafter(there, std::numeric_limits<float>::max()) - there) * scale;
+    if (step <= worst) continue;
+    worst = step;
+    axis = a;
+  }
+  if (worst > fine)
+    context.warn(
+        fmt::format("{}: coordinates along {} are in steps of {:.2g} m, as float32 is so far from zero: what was finer "
+                    "is lost; export as double, or shifted",
+                    geometry.path, "xyz"[axis], worst));
+}
+
 Cloud decode_cloud(const RawGeometry& geometry, double scale, const Context& context,
                    std::vector<std::uint32_t>* kept) {
   check_count(geometry);

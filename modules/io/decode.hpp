@@ -20,6 +20,11 @@ void check_count(const RawGeometry& geometry);
 /// their numbers, georeferenced ones keep their millimetres, and stray points far away do not matter.
 Eigen::Vector3d choose_origin(const RawGeometry& geometry, double scale);
 
+/// Warns where coordinates that are float32 in the file are so far from zero that they lost millimetres. `origin`: as
+/// choose_origin gives it.
+void warn_of_lost_digits(const RawGeometry& geometry, const Eigen::Vector3d& origin, double scale,
+                         const Context& context);
+
 /// The points with the columns that the file has, times `scale`. Points with a coordinate that is not finite are
 /// dropped and counted in a warning. Normals are brought to unit length; if any is zero or not finite, the column is
 /// left out and a warning says so. Colours of 16 bits or of 0 … 1 become 8 bits. Of sensors only those of

@@ -58,21 +58,62 @@ void decode_packed(const RawGeometry& geometry, std::vector<Colour>& colours, co
       chunk);
 }
 
+/// What tells the range that colours are in.
+struct ColourValues {
+  double largest = 0;
+  std::size_t positive = 0, fractions = 0, above_one = 0, above_byte = 0;  ///< fractions: between 0 and 1
+
+  void add(double v) {
+    if (!(v > 0) || !std::isfinite(v)) return;
+    largest = std::max(largest, v);
+    ++positive;
+    fractions += v < 1 ? 1 : 0;
+    above_one += v > 1 ? 1 : 0;
+    above_byte += v > 255 ? 1 : 0;
+  }
+  void add(const ColourValues& other) {
+    largest = std::max(largest, other.largest);
+    positive += other.positive;
+    fractions += other.fractions;
+    above_one += other.above_one;
+    above_byte += other.above_byte;
+  }
+  /// Whether what lies above a range's top is but an overshoot: not beyond `most`, or one value in a hundred.
+  bool is_few(std::size_t above, double most) const {
+    constexpr std::size_t share = 100;
+    return largest <= most || above * share <= positive;
+  }
+};
+
 }  // namespace
 
 double colour_factor(const RawGeometry& geometry, const Context& context) {
-  std::vector<double> largest((geometry.count + chunk - 1) / chunk, 0.0);
+  std::vector<ColourValues> some((geometry.count + chunk - 1) / chunk);
   bool floating = false;
   for (const Role role : colour_roles) {
     const Column& column = geometry.column(role);
     floating = floating || is_floating(column.type);
     context.parallel_chunks(geometry.count, chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
-      each_number(column, begin, end, [&](std::size_t, double v) { largest[c] = v > largest[c] ? v : largest[c]; });
+      each_number(column, begin, end, [&](std::size_t, double v) { some[c].add(v); });
     });
   }
-  const double most = largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
-  if (floating && most <= 1.0) return 255.0;
-  return most <= 255.0 ? 1.0 : 255.0 / 65535.0;
+  ColourValues all;
+  for (const auto& part : some) all.add(part);
+  const auto cut = [&](double top, std::size_t above) {
+    if (above > 0)
+      context.warn(fmt::format("{}: {} of the colours' values are above {:g}, the largest is {:g}: they are cut to it",
+                               geometry.path, above, top, all.largest));
+  };
+  // A few values above the top, as filters and interpolation make them, do not say another range.
+  if (floating && (all.largest <= 1.0 || (all.fractions > all.above_one && all.is_few(all.above_one, 2.0)))) {
+    cut(1, all.above_one);
+    return 255.0;
+  }
+  if (all.largest <= 255.0 || all.is_few(all.above_byte, 280.0)) {
+    cut(255, all.above_byte);
+    return 1.0;
+  }
+  return 255.0 / 65535.0;
 }
 
 void read_numbers(const Column& column, std::size_t first, std::size_t count, double* to) {

@@ -15,6 +15,7 @@ void read_numbers(const Column& column, std::size_t first, std::size_t count, do
 void decode_normals(const RawGeometry& geometry, const std::vector<std::uint32_t>& ignored,
                     std::vector<Eigen::Vector3f>& normals, const Context& context);
 /// Bytes are taken as they are. Other numbers by the largest there is: to 1 (0 … 1), to 255 (0 … 255), else 16 bits.
+/// Where one value in a hundred or less is larger, or all by little, these are cut, with a warning.
 void decode_colours(const RawGeometry& geometry, std::vector<Colour>& colours, const Context& context);
 /// What colour values have to be multiplied by to lie in 0 … 255, by the same rule.
 double colour_factor(const RawGeometry& geometry, const Context& context);

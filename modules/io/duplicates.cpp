@@ -1,8 +1,10 @@
 #include "modules/io/duplicates.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <set>
 
 #include "graph/api/random.hpp"
 
@@ -17,7 +19,27 @@ std::uint64_t hash_of(const Eigen::Vector3f& p) {
   return mix_seed(x << 32U | y, z);
 }
 
+using Place = std::array<float, 3>;
+
+Place place_of(const Eigen::Vector3f& p) { return {p.x() + 0.0F, p.y() + 0.0F, p.z() + 0.0F}; }
+
+/// How many places there are, if they are fewer than `limit`; else some number from there on.
+std::size_t count_places(const std::vector<Eigen::Vector3f>& points, std::size_t step, std::size_t limit) {
+  std::set<Place> places;
+  for (std::size_t i = 0; i < points.size() && places.size() < limit; i += step) places.insert(place_of(points[i]));
+  return places.size();
+}
+
 }  // namespace
+
+std::size_t few_places(const std::vector<Eigen::Vector3f>& points) {
+  constexpr std::size_t least = 4, looked_at = 2000, most = 1000;
+  if (points.size() < least) return 0;
+  const std::size_t few = std::clamp<std::size_t>(points.size() / 10, 2, most);
+  if (count_places(points, std::max<std::size_t>(1, points.size() / looked_at), few) == few) return 0;
+  const std::size_t places = count_places(points, 1, few);
+  return places < few ? places : 0;
+}
 
 double duplicate_share(const std::vector<Eigen::Vector3f>& points, const Context& context) {
   constexpr std::size_t places = 16384;

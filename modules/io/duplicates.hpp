@@ -10,4 +10,7 @@ namespace atrium::io {
 /// places, which are chosen by a hash of the place: the share of the whole cloud to about a hundredth.
 double duplicate_share(const std::vector<Eigen::Vector3f>& points, const Context& context);
 
+/// In how many places the points lie, if in fewer than a tenth of their number and fewer than 1000; else 0.
+std::size_t few_places(const std::vector<Eigen::Vector3f>& points);
+
 }  // namespace atrium::io

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "graph/api/error.hpp"
 
@@ -18,6 +19,22 @@ void FaceList::add(const std::vector<std::uint32_t>& corners, const std::array<b
     triangles.push_back({corners[0], corners[k - 1], corners[k]});
     for (std::size_t a = 0; a < 3; ++a)
       if (has[a]) attributes[a].push_back(values[a]);
+  }
+}
+
+void FaceList::add_strips(const std::vector<std::uint32_t>& corners, const std::array<bool, 3>& has,
+                          const std::array<std::int32_t, 3>& values) {
+  std::size_t length = 0;  // corners of this strip so far
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    length = corners[k] == strip_end ? 0 : length + 1;
+    if (length < 3) continue;
+    std::uint32_t a = corners[k - 2], b = corners[k - 1];
+    const std::uint32_t c = corners[k];
+    if (a == b || b == c || a == c) continue;
+    if (length % 2 == 0) std::swap(a, b);
+    triangles.push_back({a, b, c});
+    for (std::size_t v = 0; v < 3; ++v)
+      if (has[v]) attributes[v].push_back(values[v]);
   }
 }
 
@@ -41,10 +58,11 @@ int face_attribute(std::string_view property) {
   return property == "primitive" ? 2 : -1;
 }
 
-std::uint32_t vertex_index(double corner, std::size_t count, const std::string& where) {
+std::uint32_t vertex_index(double corner, std::size_t count, const std::string& where, int first) {
   if (!(corner >= 0 && corner < static_cast<double>(count)) || corner != std::floor(corner))
-    throw Error(fmt::format("{}: a face's corner is vertex {}, but there are {} vertices (0 to {})", where, corner,
-                            count, count == 0 ? 0 : count - 1));
+    throw Error(fmt::format("{}: a face's corner is vertex {}, but there are {} vertices ({} to {})", where,
+                            corner + first, count, first,
+                            (count == 0 ? 0 : count - 1) + static_cast<std::size_t>(first)));
   return static_cast<std::uint32_t>(corner);
 }
 

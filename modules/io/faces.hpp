@@ -9,6 +9,9 @@
 
 namespace atrium::io {
 
+/// Stands where a strip of triangles ends; no index of a vertex.
+inline constexpr std::uint32_t strip_end = 0xFFFFFFFF;
+
 /// Collects the faces of a file, or of a piece of it, as triangles.
 struct FaceList {
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -18,6 +21,10 @@ struct FaceList {
   /// Adds a polygon as a fan of triangles. values: its attributes, where the file has them.
   void add(const std::vector<std::uint32_t>& corners, const std::array<bool, 3>& has,
            const std::array<std::int32_t, 3>& values);
+  /// Adds strips of triangles, one after the other with `strip_end` between them: a corner makes a triangle with the
+  /// two before it, every other one turned round. Triangles with a corner twice, which only lead on, are left out.
+  void add_strips(const std::vector<std::uint32_t>& corners, const std::array<bool, 3>& has,
+                  const std::array<std::int32_t, 3>& values);
   /// Puts the pieces, in order, into the geometry.
   static void join(std::vector<FaceList>& pieces, RawGeometry& geometry);
 };
@@ -26,7 +33,9 @@ struct FaceList {
 int face_attribute(std::string_view property);
 
 /// A corner as a vertex index. Throws Error (`where`: file and line or byte) unless it is a whole number in 0 …
-/// count-1.
-std::uint32_t vertex_index(double corner, std::size_t count, const std::string& where);
+/// count-1. `first`: the number that the format gives the first vertex, for the message.
+std::uint32_t vertex_index(double corner, std::size_t count, const std::string& where, int first = 0);
+/// Whether the number, in place of a strip's corner, ends the strip: -1, or 2³² - 1 where numbers have no sign.
+constexpr bool ends_strip(double corner) { return corner == -1 || corner == strip_end; }
 
 }  // namespace atrium::io

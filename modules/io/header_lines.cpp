@@ -9,12 +9,18 @@
 
 namespace atrium::io {
 
+HeaderLines::HeaderLines(const MappedFile& file, std::string missing)
+    : file_(file), missing_(std::move(missing)), position_(file.size() - without_mark(file.text()).size()) {}
+
 std::string_view HeaderLines::next() {
   const std::string_view rest = file_.text().substr(position_);
-  const std::size_t length = rest.find(line_end_);
+  const std::size_t length = rest.find_first_of("\r\n");
   ++count_;
   if (length == std::string_view::npos) fail(missing_);
-  position_ += length + line_end_.size();
+  const bool returned = rest[length] == '\r';
+  const bool both = returned && !only_returns_ && rest.substr(length + 1).starts_with('\n');
+  only_returns_ = returned && !both && (count_ == 1 || only_returns_);
+  position_ += length + (both ? 2 : 1);
   return rest.substr(0, length);
 }
 

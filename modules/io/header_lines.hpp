@@ -10,11 +10,11 @@ namespace atrium::io {
 /// Walks the lines of a text header before binary data, and names the line in errors.
 class HeaderLines {
  public:
-  /// `line_end`: as it stands in the file. `missing`: what the Error says if the file ends before the header does.
-  HeaderLines(const MappedFile& file, std::string_view line_end, std::string missing)
-      : file_(file), line_end_(line_end), missing_(std::move(missing)) {}
+  /// `missing`: what the Error says if the file ends before the header does. A byte order mark is passed over.
+  HeaderLines(const MappedFile& file, std::string missing);
 
-  /// The next line without its end.
+  /// The next line without its end, which is LF, CR LF or CR. Where all ends before were CR alone, an LF behind one
+  /// more belongs to the data.
   std::string_view next();
   std::size_t position() const { return position_; }  ///< byte behind the last line
   std::size_t count() const { return count_; }        ///< lines read so far
@@ -25,9 +25,9 @@ class HeaderLines {
 
  private:
   const MappedFile& file_;
-  std::string_view line_end_;
   std::string missing_;
   std::size_t position_ = 0, count_ = 0;
+  bool only_returns_ = false;  ///< all lines so far end with CR alone
 };
 
 }  // namespace atrium::io

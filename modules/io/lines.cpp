@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <limits>
 
@@ -23,23 +22,13 @@ bool is_row(std::string_view line, bool comments) {
   return !comments || !(line[i] == '#' || (line[i] == '/' && i + 1 < line.size() && line[i + 1] == '/'));
 }
 
-/// Calls f(line) for each line of a text; f gives false to stop.
-template <class F>
-void each_line(std::string_view text, F&& f) {
-  while (!text.empty()) {
-    const auto* end = static_cast<const char*>(std::memchr(text.data(), '\n', text.size()));
-    const std::size_t length = end == nullptr ? text.size() : static_cast<std::size_t>(end - text.data());
-    if (!f(text.substr(0, length))) return;
-    text.remove_prefix(std::min(text.size(), length + 1));
-  }
-}
-
 std::vector<Lines::Piece> cut(std::string_view text) {
   std::vector<Lines::Piece> pieces;
   while (!text.empty()) {
     std::size_t length = std::min(text.size(), piece_size);
-    const std::size_t end = text.find('\n', length - 1);
+    const std::size_t end = text.find_first_of("\r\n", length - 1);
     length = end == std::string_view::npos ? text.size() : end + 1;
+    if (length < text.size() && text[length - 1] == '\r' && text[length] == '\n') ++length;
     pieces.push_back({text.substr(0, length)});
     text.remove_prefix(length);
   }
@@ -48,6 +37,17 @@ std::vector<Lines::Piece> cut(std::string_view text) {
 
 }  // namespace
 
+std::string_view without_mark(std::string_view text) {
+  return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
 Lines::Lines(std::string_view text, std::size_t first_line, bool comments, const Context& context)
     : comments_(comments), pieces_(cut(text)) {
   std::vector<std::size_t> lines(pieces_.size());
@@ -55,7 +55,7 @@ Lines::Lines(std::string_view text, std::size_t first_line, bool comments, const
       pieces_.size(),
       [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-          each_line(pieces_[i].text, [&](std::string_view line) {
+          for_lines(pieces_[i].text, [&](std::string_view line) {
             ++lines[i];
             pieces_[i].rows += is_row(line, comments_) ? 1 : 0;
             return true;
@@ -97,7 +97,7 @@ void Lines::rows_of(std::size_t p, std::size_t begin, std::size_t end,
   const Piece& piece = pieces_[p];
   if (piece.first_row + piece.rows <= begin || piece.first_row >= end) return;
   Row row{piece.first_row, piece.first_line, {}};
-  each_line(piece.text, [&](std::string_view line) {
+  for_lines(piece.text, [&](std::string_view line) {
     if (is_row(line, comments_)) {
       row.text = line;
       if (row.index >= begin) work(row);

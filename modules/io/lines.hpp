@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstring>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -8,6 +9,30 @@
 #include "graph/api/context.hpp"
 
 namespace atrium::io {
+
+/// Calls f(line), without its end, for each line of a text; f gives false to stop. A line ends with LF, CR LF or CR.
+template <class F>
+void for_lines(std::string_view text, F&& f) {
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  const char* feed = nullptr;  // the next LF, or the end
+  const auto find = [](const char* from, char c, const char* to) {
+    const void* found = from == to ? nullptr : std::memchr(from, c, static_cast<std::size_t>(to - from));
+    return found == nullptr ? to : static_cast<const char*>(found);
+  };
+  while (at != end) {
+    if (feed == nullptr || feed < at) feed = find(at, '\n', end);
+    const char* const stop = find(at, '\r', feed);
+    if (!f(std::string_view(at, static_cast<std::size_t>(stop - at)))) return;
+    at = stop;
+    if (at != end) at += *at == '\r' && at + 1 != end && at[1] == '\n' ? 2 : 1;
+  }
+}
+
+/// The text without a byte order mark in front, as spreadsheets and editors write it.
+std::string_view without_mark(std::string_view text);
+/// ASCII letters in lower case.
+std::string lower_case(std::string_view text);
 
 /// A row: a line of a text file that is neither blank nor a comment.
 struct Row {

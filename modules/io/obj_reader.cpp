@@ -35,6 +35,7 @@ struct Piece {
   std::optional<Group> group;  ///< the last one named in it
   bool named = false;          ///< there is a group whose name tells class and primitive
   std::size_t coloured = 0;    ///< vertices with colour
+  std::size_t unread = 0;      ///< surfaces that are not of faces
 };
 
 class PieceParser {
@@ -44,18 +45,25 @@ class PieceParser {
   void read(const Row& row) {
     row_ = &row;
     std::string_view rest = row.text;
-    const std::string_view keyword = next_token(rest);
+    const std::string keyword = lower_case(next_token(rest));
     if (keyword == "v")
       read_vertex(rest);
     else if (keyword == "vn")
       piece_.normals.push_back(vector(rest));
-    else if (keyword == "f")
+    else if (keyword == "f" || keyword == "fo")  // fo: in old files
       read_face(rest);
     else if (keyword == "g" || keyword == "o")
       read_group(rest);
+    else if (is_surface(keyword))
+      ++piece_.unread;
   }
 
  private:
+  /// Free-form surfaces, and the patches of old files.
+  static bool is_surface(std::string_view keyword) {
+    return keyword == "surf" || keyword == "bsp" || keyword == "bzp" || keyword == "cdp";
+  }
+
   [[noreturn]] void fail(const std::string& what) const {
     throw Error(fmt::format("{}:{}: {}", path_, row_->line, what));
   }
@@ -77,7 +85,7 @@ class PieceParser {
     piece_.vertices.push_back(vector(rest));
     std::array<double, 4> more{};
     std::size_t n = 0;
-    for (auto token = next_token(rest); !token.empty(); token = next_token(rest)) {
+    for (auto token = next_token(rest); !token.empty() && !token.starts_with('#'); token = next_token(rest)) {
       if (n == more.size()) fail("a vertex of more than seven numbers");
       more[n++] = number(token);
     }
@@ -92,19 +100,24 @@ class PieceParser {
     return error == std::errc{} && stop == text.data() + text.size() && value != 0;
   }
 
+  /// vertex, vertex/texture, vertex/texture/normal or vertex//normal; what comes behind the vertex may be empty.
+  static bool read_corner(std::string_view token, Piece::Corner& corner) {
+    std::array<std::string_view, 3> parts;
+    for (auto& part : parts) {
+      const std::size_t length = std::min(token.find('/'), token.size());
+      part = token.substr(0, length);
+      token.remove_prefix(std::min(length + 1, token.size()));
+    }
+    return token.empty() && whole(parts[0], corner.vertex) && (parts[2].empty() || whole(parts[2], corner.normal));
+  }
+
   void read_face(std::string_view rest) {
     Piece::Face face{piece_.corners.size(), 0, row_->line, group_};
     group_.reset();
     for (auto token = next_token(rest); !token.empty(); token = next_token(rest)) {
       if (token.starts_with('#')) break;
       Piece::Corner corner;
-      const std::size_t slash = token.find('/');
-      if (!whole(token.substr(0, slash), corner.vertex)) fail(quote(token) + " is not a face's corner");
-      if (slash != std::string_view::npos) {
-        const std::size_t second = token.find('/', slash + 1);
-        if (second != std::string_view::npos && !whole(token.substr(second + 1), corner.normal))
-          fail(quote(token) + " is not a face's corner");
-      }
+      if (!read_corner(token, corner)) fail(quote(token) + " is not a face's corner");
       corner.relative_vertex = corner.vertex < 0;
       corner.relative_normal = corner.normal < 0;
       if (corner.relative_vertex) corner.vertex += static_cast<std::int64_t>(piece_.vertices.size()) + 1;
@@ -187,7 +200,7 @@ class FaceJoiner {
   std::uint32_t resolve(const Piece::Corner& corner, std::size_t line) {
     const std::int64_t vertex = corner.vertex + (corner.relative_vertex ? vertices_before_ : 0) - 1;
     if (vertex < 0 || vertex >= static_cast<std::int64_t>(geometry_.count))
-      vertex_index(static_cast<double>(vertex), geometry_.count, fmt::format("{}:{}", geometry_.path, line));
+      vertex_index(static_cast<double>(vertex), geometry_.count, fmt::format("{}:{}", geometry_.path, line), 1);
     const auto index = static_cast<std::uint32_t>(vertex);
     if (corner.normal == 0 && !corner.relative_normal) return index;
     const std::int64_t normal = corner.normal + (corner.relative_normal ? normals_before_ : 0);
@@ -206,10 +219,51 @@ class FaceJoiner {
   std::int64_t vertices_before_ = 0, normals_before_ = 0;
 };
 
+bool is_obj_blank(char c) { return c == ' ' || c == '\t'; }
+
+/// Whether a line that begins so goes on behind a backslash: names of files and groups may end with one.
+bool may_go_on(std::string_view line) {
+  const std::string keyword = lower_case(next_token(line));
+  return keyword == "v" || keyword == "vn" || keyword == "vt" || keyword == "f" || keyword == "l" || keyword == "p";
+}
+
+/// The text with lines that end with a backslash joined to the next; the line ends stand behind, so that lines keep
+/// their numbers. Nothing if there are none.
+std::optional<std::string> joined_lines(std::string_view text) {
+  std::string joined;
+  std::size_t copied = 0, line = 0, owed = 0;  // owed: line ends that were taken away
+  for (std::size_t at = text.find_first_of("\\\r\n"); at != std::string_view::npos;
+       at = text.find_first_of("\\\r\n", at)) {
+    if (text[at] != '\\') {
+      const std::size_t end = at + (text[at] == '\r' && text.substr(at + 1).starts_with('\n') ? 2 : 1);
+      if (owed > 0) joined.append(text, copied, end - copied).append(owed, '\n');
+      if (owed > 0) copied = end;
+      owed = 0;
+      line = at = end;
+      continue;
+    }
+    std::size_t end = at + 1;
+    while (end < text.size() && is_obj_blank(text[end])) ++end;
+    if (end == text.size() || (text[end] != '\r' && text[end] != '\n') ||
+        (owed == 0 && !may_go_on(text.substr(line, at - line)))) {
+      at = end;
+      continue;
+    }
+    joined.append(text, copied, at - copied).append(1, ' ');
+    end += text[end] == '\r' && text.substr(end + 1).starts_with('\n') ? 2 : 1;
+    copied = at = end;
+    ++owed;
+  }
+  if (copied == 0) return std::nullopt;
+  return joined.append(text, copied);
+}
+
 }  // namespace
 
 RawGeometry read_obj(const std::shared_ptr<const MappedFile>& file, const Context& context) {
-  const Lines lines(file->text(), 1, true, context);
+  const std::string_view text = without_mark(file->text());
+  const auto joined = text.find('\\') == std::string_view::npos ? std::nullopt : joined_lines(text);
+  const Lines lines(joined ? *joined : text, 1, true, context);
   std::vector<Piece> pieces(lines.pieces().size());
   std::vector<std::optional<PieceParser>> parsers(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) parsers[i].emplace(file->path(), pieces[i]);
@@ -219,11 +273,16 @@ RawGeometry read_obj(const std::shared_ptr<const MappedFile>& file, const Contex
   geometry.path = file->path();
   Normals normals;
   bool grouped = false;
+  std::size_t unread = 0;
   for (const auto& piece : pieces) {
+    unread += piece.unread;
     geometry.count += piece.vertices.size();
     normals.all.insert(normals.all.end(), piece.normals.begin(), piece.normals.end());
     grouped = grouped || piece.named;
   }
+  if (unread > 0)
+    context.warn(
+        fmt::format("{}: {} surfaces that are curved or patches are not read, only faces", geometry.path, unread));
   FaceJoiner joiner(geometry, normals);
   for (const auto& piece : pieces) joiner.add(piece);
   joiner.finish(grouped);

@@ -11,14 +11,13 @@ namespace {
 class PcdHeaderParser {
  public:
   explicit PcdHeaderParser(const MappedFile& file)
-      : lines_(file, "\n", "the header ends without a line 'DATA' (truncated, or not a PCD file?)") {}
+      : lines_(file, "the header ends without a line 'DATA' (truncated, or not a PCD file?)") {}
 
   PcdHeader parse() {
     for (bool more = true; more;) {
       std::string_view line = lines_.next();
-      if (line.starts_with('#')) continue;
-      const std::string_view keyword = next_token(line);
-      if (!keyword.empty()) more = read(keyword, line);
+      const std::string keyword = lower_case(next_token(line));
+      if (!keyword.empty() && !keyword.starts_with('#')) more = read(keyword, line);
     }
     finish();
     return std::move(header_);
@@ -31,27 +30,27 @@ class PcdHeaderParser {
     return all;
   }
 
-  /// False after the last line of the header.
+  /// `keyword`: in lower case. False after the last line of the header.
   bool read(std::string_view keyword, std::string_view line) {
     const auto values = tokens(line);
-    if (keyword == "VERSION") return true;
-    if (keyword == "DATA") return read_data(values);
+    if (keyword == "version") return true;
+    if (keyword == "data") return read_data(values);
     if (values.empty()) lines_.fail(quote(keyword) + " without values");
-    if (keyword == "FIELDS" || keyword == "COLUMNS")
+    if (keyword == "fields" || keyword == "columns")
       names_.assign(values.begin(), values.end());
-    else if (keyword == "SIZE")
+    else if (keyword == "size")
       sizes_ = wholes(values);
-    else if (keyword == "COUNT")
+    else if (keyword == "count")
       counts_ = wholes(values);
-    else if (keyword == "TYPE")
+    else if (keyword == "type")
       types_.assign(values.begin(), values.end());
-    else if (keyword == "WIDTH")
+    else if (keyword == "width")
       width_ = lines_.whole(values[0]);
-    else if (keyword == "HEIGHT")
+    else if (keyword == "height")
       height_ = lines_.whole(values[0]);
-    else if (keyword == "POINTS")
+    else if (keyword == "points")
       points_ = lines_.whole(values[0]);
-    else if (keyword == "VIEWPOINT")
+    else if (keyword == "viewpoint")
       read_viewpoint(values);
     else
       lines_.fail("unknown keyword " + quote(keyword) + " (not a PCD file?)");
@@ -75,7 +74,7 @@ class PcdHeaderParser {
   }
 
   bool read_data(const std::vector<std::string_view>& values) {
-    const std::string_view kind = values.empty() ? std::string_view{} : values[0];
+    const std::string kind = lower_case(values.empty() ? std::string_view{} : values[0]);
     if (kind == "ascii")
       header_.data = PcdHeader::Data::ascii;
     else if (kind == "binary")
@@ -87,15 +86,16 @@ class PcdHeaderParser {
     return false;
   }
 
-  Scalar scalar(std::string_view type, std::uint64_t size) const {
-    if (type == "F" && size == 4) return Scalar::f32;
-    if (type == "F" && size == 8) return Scalar::f64;
+  Scalar scalar(std::string_view name, std::uint64_t size) const {
+    const std::string type = lower_case(name);
+    if (type == "f" && size == 4) return Scalar::f32;
+    if (type == "f" && size == 8) return Scalar::f64;
     constexpr Scalar table[2][4] = {{Scalar::i8, Scalar::i16, Scalar::i32, Scalar::i64},
                                     {Scalar::u8, Scalar::u16, Scalar::u32, Scalar::u64}};
     for (int k = 0; k < 4; ++k)
-      if (size == std::uint64_t{1} << k && (type == "I" || type == "U")) return table[type == "I" ? 0 : 1][k];
+      if (size == std::uint64_t{1} << k && (type == "i" || type == "u")) return table[type == "i" ? 0 : 1][k];
     lines_.fail(fmt::format("a field of TYPE {} and SIZE {}; there are I and U of 1, 2, 4, 8 bytes and F of 4, 8",
-                            quote(type), size));
+                            quote(name), size));
   }
 
   void finish() {

@@ -29,7 +29,8 @@ struct PcdHeader {
   std::size_t lines = 0;  ///< of the header
 };
 
-/// Reads the header of a PCD file of version 0.5 to 0.7. Throws Error with the line's number.
+/// Reads the header of a PCD file of version 0.5 to 0.7; upper and lower case are the same. Throws Error with the
+/// line's number.
 PcdHeader read_pcd_header(const MappedFile& file);
 
 }  // namespace atrium::io

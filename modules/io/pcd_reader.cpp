@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <optional>
 
 #include "graph/api/error.hpp"
+#include "modules/io/free_numbers.hpp"
 #include "modules/io/lines.hpp"
 #include "modules/io/lzf.hpp"
 #include "modules/io/pcd_header.hpp"
@@ -66,10 +69,14 @@ void read_compressed(const MappedFile& file, const PcdHeader& header, RawGeometr
   geometry.storage.push_back(std::move(data));
 }
 
-/// The bits of a packed colour that is written as a number.
+/// The bits of a packed colour that is written as a number: of a float its own bits, as PCL keeps them, which with a
+/// colour in them are far below 1; as other programs write it, the whole number.
 double packed_bits(double value, Scalar type) {
-  if (type == Scalar::f32) return std::bit_cast<std::uint32_t>(static_cast<float>(value));
-  return value >= 0 && value <= 4294967295.0 ? value : 0.0;
+  constexpr double most = 4294967295.0;
+  if (value < 0 && value >= -2147483648.0 && value == std::floor(value)) value += most + 1;  // opaque, as an i32
+  const bool whole = value >= 1 && value <= most && value == std::floor(value);
+  if (whole) return value;
+  return type == Scalar::f32 ? std::bit_cast<std::uint32_t>(static_cast<float>(value)) : 0.0;
 }
 
 void read_row(const MappedFile& file, const PcdHeader& header, const std::vector<Role>& roles, const Row& row,
@@ -92,8 +99,9 @@ void read_row(const MappedFile& file, const PcdHeader& header, const std::vector
                             header.fields.size(), quote(token)));
 }
 
-void read_text_pcd(const MappedFile& file, const PcdHeader& header, RawGeometry& geometry, const Context& context) {
-  const Lines lines(file.text().substr(header.body), header.lines + 1, true, context);
+void read_rows(const MappedFile& file, std::string_view text, const PcdHeader& header, RawGeometry& geometry,
+               const Context& context) {
+  const Lines lines(text, header.lines + 1, true, context);
   if (lines.rows() < header.points)
     throw Error(fmt::format("{}: truncated: {} points are declared, but the file ends after {} (line {})", file.path(),
                             header.points, lines.rows(), lines.end_line()),
@@ -111,6 +119,32 @@ void read_text_pcd(const MappedFile& file, const PcdHeader& header, RawGeometry&
   Table::attach(std::move(table), geometry);
 }
 
+/// The points with one a line, if they are broken into lines in another way.
+std::optional<std::string> one_point_a_line(std::string_view text, const PcdHeader& header) {
+  std::uint64_t width = 0;
+  for (const auto& field : header.fields) width += field.count;
+  if (width == 0) return std::nullopt;
+  FreeNumbers numbers(text);
+  double value = 0;
+  for (std::uint64_t i = 0; i < header.points; ++i) {
+    for (std::uint64_t k = 0; k < width; ++k)
+      if (!numbers.take(value)) return std::nullopt;
+    numbers.end_record();
+  }
+  return numbers.text();
+}
+
+void read_text_pcd(const MappedFile& file, const PcdHeader& header, RawGeometry& geometry, const Context& context) {
+  const std::string_view text = file.text().substr(header.body);
+  try {
+    read_rows(file, text, header, geometry, context);
+  } catch (const Error&) {
+    const auto other = one_point_a_line(text, header);
+    if (!other) throw;
+    read_rows(file, *other, header, geometry, context);
+  }
+}
+
 }  // namespace
 
 RawGeometry read_pcd(const std::shared_ptr<const MappedFile>& file, const Context& context) {
@@ -119,7 +153,7 @@ RawGeometry read_pcd(const std::shared_ptr<const MappedFile>& file, const Contex
   geometry.path = file->path();
   geometry.count = header.points;
   geometry.viewpoint = header.viewpoint;
-  geometry.organised = header.height > 1;
+  if (header.height > 1) geometry.image_width = header.width;
   geometry.storage.push_back(file);
   if (header.points == 0) return geometry;
   if (header.data == PcdHeader::Data::ascii)

@@ -24,19 +24,14 @@ class BinaryBody {
     const std::size_t record = element.record_size();
     if (record == 0) return;
     if (element.count > left() / record) truncated(element, element.count, record);
-    if (element.name == "vertex")
-      read_vertices(element);
-    else if (element.name == "face")
-      read_faces(element);
-    else if (is_sensors(file_.path(), element))
-      read_sensors(element);
-    else if (element.name == "camera" && !element.has_lists() && element.count > 0)
-      read_camera(element);
-    else if (element.has_lists())
-      walk(
-          element, [](std::size_t, double) {}, [](std::uint64_t) {});
-    else
-      place_ += record * element.count;
+    switch (part_of(file_.path(), element)) {
+      case PlyPart::vertices: read_vertices(element); break;
+      case PlyPart::faces:
+      case PlyPart::strips: read_faces(element); break;
+      case PlyPart::sensors: read_sensors(element); break;
+      case PlyPart::camera: read_camera(element); break;
+      case PlyPart::other: pass_over(element); break;
+    }
   }
 
  private:
@@ -92,6 +87,14 @@ class BinaryBody {
     }
   }
 
+  void pass_over(const PlyElement& element) {
+    if (element.has_lists())
+      walk(
+          element, [](std::size_t, double) {}, [](std::uint64_t) {});
+    else
+      place_ += element.record_size() * element.count;
+  }
+
   void read_vertices(const PlyElement& element) {
     const std::vector<Role> roles = roles_of(element);
     if (element.has_lists()) {
@@ -139,7 +142,7 @@ class BinaryBody {
         [&](std::uint64_t) { geometry_.sensors.push_back(place); });
   }
 
-  void read_corners(const PlyProperty& property, const PlyElement& element, std::uint64_t index,
+  void read_corners(const PlyProperty& property, const PlyElement& element, std::uint64_t index, bool strips,
                     std::vector<std::uint32_t>& corners) {
     const std::uint64_t count = take_count(property, element, index);
     corners.resize(count);
@@ -150,6 +153,8 @@ class BinaryBody {
         const auto corner = static_cast<double>(load<T>(from + k * sizeof(T), swapped_));
         if (corner >= 0 && corner < static_cast<double>(geometry_.count) && corner == std::floor(corner))
           corners[k] = static_cast<std::uint32_t>(corner);
+        else if (strips && ends_strip(corner))
+          corners[k] = strip_end;
         else
           vertex_index(corner, geometry_.count, fmt::format("{}: face {} at byte {}", file_.path(), index, place_));
       }
@@ -157,7 +162,9 @@ class BinaryBody {
     place_ += count * size_of(property.type);
   }
 
+  /// Faces, or strips of triangles.
   void read_faces(const PlyElement& element) {
+    const bool strips = part_of(file_.path(), element) == PlyPart::strips;
     std::vector<FaceList> faces(1);
     std::vector<std::uint32_t> corners;
     std::array<bool, 3> has{};
@@ -172,7 +179,7 @@ class BinaryBody {
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         const PlyProperty& property = element.properties[p];
         if (is_corner_list(property)) {
-          read_corners(property, element, i, corners);
+          read_corners(property, element, i, strips, corners);
         } else if (property.is_list()) {
           const std::uint64_t count = take_count(property, element, i);
           place_ += count * size_of(property.type);
@@ -182,7 +189,10 @@ class BinaryBody {
           if (attribute[p] >= 0) values[static_cast<std::size_t>(attribute[p])] = whole(v);
         }
       }
-      faces[0].add(corners, has, values);
+      if (strips)
+        faces[0].add_strips(corners, has, values);
+      else
+        faces[0].add(corners, has, values);
     }
     FaceList::join(faces, geometry_);
   }

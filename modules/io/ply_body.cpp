@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <bitset>
+#include <cmath>
 
 #include "graph/api/error.hpp"
+#include "modules/io/free_numbers.hpp"
 
 namespace atrium::io {
 
@@ -22,6 +24,43 @@ std::vector<Role> roles_of(const PlyElement& element) {
 
 bool is_corner_list(const PlyProperty& property) {
   return property.is_list() && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+PlyPart part_of(const std::string& path, const PlyElement& element) {
+  if (element.name == "vertex") return PlyPart::vertices;
+  if (element.name == "face") return PlyPart::faces;
+  if (element.name == "tristrips") return PlyPart::strips;
+  if (is_sensors(path, element)) return PlyPart::sensors;
+  return element.name == "camera" && !element.has_lists() && element.count > 0 ? PlyPart::camera : PlyPart::other;
+}
+
+void warn_of_unread(const std::string& path, const PlyElement& element, const Context& context) {
+  const bool has_corners = std::any_of(element.properties.begin(), element.properties.end(), is_corner_list);
+  const bool is_face = element.name == "face" || element.name == "tristrips";
+  // range_grid: the vertices are the image's points, and no surface is said to be between them.
+  if (element.count == 0 || has_corners == is_face || element.name == "vertex" || element.name == "range_grid") return;
+  context.warn(fmt::format("{}: the {} records of element '{}' are not read: {}", path, element.count, element.name,
+                           is_face ? "they have no list 'vertex_indices' of corners"
+                                   : "faces are read of the elements 'face' and 'tristrips'"));
+}
+
+std::optional<std::string> one_record_a_line(std::string_view body, const PlyHeader& header) {
+  FreeNumbers numbers(body);
+  for (const auto& element : header.elements) {
+    if (element.properties.empty()) continue;
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (const auto& property : element.properties) {
+        double value = 0;
+        if (!numbers.take(value)) return std::nullopt;
+        if (!property.is_list()) continue;
+        if (!(value >= 0) || value != std::floor(value)) return std::nullopt;
+        for (double left = value; left > 0; --left)
+          if (double item = 0; !numbers.take(item)) return std::nullopt;
+      }
+      numbers.end_record();
+    }
+  }
+  return numbers.text();
 }
 
 int viewpoint_axis(const PlyProperty& property) {

@@ -1,4 +1,8 @@
 #pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+
 #include "graph/api/context.hpp"
 #include "graph/api/mapped_file.hpp"
 #include "modules/io/ply_header.hpp"
@@ -12,6 +16,17 @@ void read_ply_text(const MappedFile& file, const PlyHeader& header, RawGeometry&
 
 /// Roles of an element's properties; a role is given to the first property that claims it.
 std::vector<Role> roles_of(const PlyElement& element);
+
+/// What the records of an element are to us.
+enum class PlyPart : std::uint8_t { vertices, faces, strips, sensors, camera, other };
+PlyPart part_of(const std::string& path, const PlyElement& element);
+/// Warns where records with corners are not read: an unknown element that has such a list, or faces without one.
+void warn_of_unread(const std::string& path, const PlyElement& element, const Context& context);
+
+/// The body of a text file with one record a line, if its numbers are all there but broken into lines in another way
+/// (one number a line, or several records a line); else nothing.
+std::optional<std::string> one_record_a_line(std::string_view body, const PlyHeader& header);
+
 bool is_corner_list(const PlyProperty& property);
 /// 0, 1, 2 for x, y, z, else -1.
 int sensor_axis(const PlyProperty& property);

@@ -23,15 +23,16 @@ constexpr std::pair<std::string_view, Scalar> type_names[] = {
 /// Reads the header line by line.
 class PlyHeaderParser {
  public:
-  explicit PlyHeaderParser(const MappedFile& file)
-      : lines_(file, line_end_of(file), "the header ends without 'end_header' (truncated?)") {}
+  explicit PlyHeaderParser(const MappedFile& file) : lines_(file, "the header ends without 'end_header' (truncated?)") {
+    if (!begins_as_ply(file.text())) throw Error(file.path() + ": not a PLY file: its first line is not 'ply'");
+  }
 
   PlyHeader parse() {
     bool has_format = false;
     lines_.next();
     for (;;) {
       std::string_view line = lines_.next();
-      const std::string_view keyword = next_token(line);
+      const std::string keyword = lower_case(next_token(line));
       if (keyword == "end_header") break;
       if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) continue;
       if (keyword == "format")
@@ -50,15 +51,8 @@ class PlyHeaderParser {
   }
 
  private:
-  static std::string_view line_end_of(const MappedFile& file) {
-    const std::string_view text = file.text();
-    if (!text.starts_with("ply") || text.size() < 4 || (text[3] != '\n' && text[3] != '\r'))
-      throw Error(file.path() + ": not a PLY file: its first line is not 'ply'");
-    return text[3] == '\n' ? "\n" : text.substr(3).starts_with("\r\n") ? "\r\n" : "\r";
-  }
-
   bool read_format(std::string_view line) {
-    const std::string_view name = next_token(line);
+    const std::string name = lower_case(next_token(line));
     if (name == "ascii")
       header_.format = PlyHeader::Format::ascii;
     else if (name == "binary_little_endian")
@@ -72,7 +66,7 @@ class PlyHeaderParser {
 
   void read_element(std::string_view line) {
     PlyElement element;
-    element.name = next_token(line);
+    element.name = lower_case(next_token(line));
     const std::string_view count = next_token(line);
     const auto [stop, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (element.name.empty() || error != std::errc{} || stop != count.data() + count.size())
@@ -83,7 +77,7 @@ class PlyHeaderParser {
   }
 
   Scalar read_type(std::string_view& line) {
-    const std::string_view name = next_token(line);
+    const std::string name = lower_case(next_token(line));
     for (const auto& [known, type] : type_names)
       if (known == name) return type;
     lines_.fail("unknown property type " + quote(name));
@@ -93,13 +87,13 @@ class PlyHeaderParser {
     if (header_.elements.empty()) lines_.fail("a property before the first element");
     PlyProperty property;
     std::string_view ahead = line;
-    if (next_token(ahead) == "list") {
+    if (lower_case(next_token(ahead)) == "list") {
       line = ahead;
       property.count_type = read_type(line);
       if (is_floating(property.count_type)) lines_.fail("the length of a list cannot be a floating-point number");
     }
     property.type = read_type(line);
-    property.name = next_token(line);
+    property.name = lower_case(next_token(line));
     if (property.name.empty()) lines_.fail("a property without a name");
     header_.elements.back().properties.push_back(std::move(property));
   }
@@ -120,6 +114,13 @@ bool PlyElement::has_lists() const {
   for (const auto& p : properties)
     if (p.is_list()) return true;
   return false;
+}
+
+bool begins_as_ply(std::string_view text) {
+  constexpr std::size_t longest = 80;
+  text = without_mark(text).substr(0, longest);
+  std::string_view line = text.substr(0, text.find_first_of("\r\n"));
+  return lower_case(next_token(line)) == "ply" && next_token(line).empty();
 }
 
 PlyHeader read_ply_header(const MappedFile& file) { return PlyHeaderParser(file).parse(); }

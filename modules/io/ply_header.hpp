@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "graph/api/mapped_file.hpp"
@@ -9,7 +10,7 @@
 namespace atrium::io {
 
 struct PlyProperty {
-  std::string name;
+  std::string name;  ///< in lower case, as the elements'
   Scalar type = Scalar::none;
   Scalar count_type = Scalar::none;  ///< none: one number; else a list, led by its length in this type
   bool is_list() const { return count_type != Scalar::none; }
@@ -32,7 +33,11 @@ struct PlyHeader {
   std::size_t lines = 0;  ///< of the header
 };
 
-/// Reads the header; its lines may end in LF, CR LF or CR. Throws Error with the line's number.
+/// Whether a file begins as PLY files do: with a line "ply".
+bool begins_as_ply(std::string_view text);
+
+/// Reads the header; its lines may end in LF, CR LF or CR, or some in one and some in another. Upper and lower case are
+/// the same. Throws Error with the line's number.
 PlyHeader read_ply_header(const MappedFile& file);
 
 }  // namespace atrium::io

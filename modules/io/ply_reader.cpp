@@ -32,6 +32,7 @@ RawGeometry read_ply(const std::shared_ptr<const MappedFile>& file, const Contex
     read_ply_text(*file, header, geometry, context);
   else
     read_ply_binary(*file, header, geometry);
+  for (const auto& element : header.elements) warn_of_unread(file->path(), element, context);
   for (std::size_t i = 0; i < geometry.sensors.size(); ++i)
     if (!geometry.sensors[i].allFinite())
       throw Error(fmt::format("{}: the place of sensor {} is not finite", geometry.path, i));

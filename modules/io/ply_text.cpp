@@ -77,7 +77,9 @@ struct TextBody {
     Table::attach(std::move(table), geometry);
   }
 
+  /// Faces, or strips of triangles.
   void read_faces(const PlyElement& element, std::size_t first) const {
+    const bool strips = part_of(file.path(), element) == PlyPart::strips;
     std::vector<FaceList> faces(lines.pieces().size());
     std::array<bool, 3> has{};
     for (const auto& p : element.properties)
@@ -89,7 +91,10 @@ struct TextBody {
       for (const auto& property : element.properties) {
         if (is_corner_list(property)) {
           corners.resize(reader.list_length(property));
-          for (auto& c : corners) c = vertex_index(reader.number(property), geometry.count, reader.where());
+          for (auto& c : corners) {
+            const double corner = reader.number(property);
+            c = strips && ends_strip(corner) ? strip_end : vertex_index(corner, geometry.count, reader.where());
+          }
         } else if (property.is_list()) {
           skip_list(reader, property);
         } else {
@@ -101,7 +106,10 @@ struct TextBody {
         }
       }
       reader.finish();
-      faces[piece].add(corners, has, values);
+      if (strips)
+        faces[piece].add_strips(corners, has, values);
+      else
+        faces[piece].add(corners, has, values);
     });
     FaceList::join(faces, geometry);
   }
@@ -139,10 +147,9 @@ struct TextBody {
   }
 };
 
-}  // namespace
-
-void read_ply_text(const MappedFile& file, const PlyHeader& header, RawGeometry& geometry, const Context& context) {
-  const Lines lines(file.text().substr(header.body), header.lines + 1, false, context);
+void read_lines(const MappedFile& file, std::string_view text, const PlyHeader& header, RawGeometry& geometry,
+                const Context& context) {
+  const Lines lines(text, header.lines + 1, false, context);
   const TextBody body{file, lines, geometry, context};
   std::size_t first = 0;
   for (const auto& element : header.elements) {
@@ -153,15 +160,35 @@ void read_ply_text(const MappedFile& file, const PlyHeader& header, RawGeometry&
                       "(line {})",
                       file.path(), element.count, element.name, lines.rows() - first, lines.end_line()),
           "the header promises more than the file holds: copy or export it again");
-    if (element.name == "vertex")
-      body.read_vertices(element, first);
-    else if (element.name == "face")
-      body.read_faces(element, first);
-    else if (is_sensors(file.path(), element))
-      body.read_sensors(element, first);
-    else if (element.name == "camera" && !element.has_lists() && element.count > 0)
-      body.read_camera(element, first);
+    switch (part_of(file.path(), element)) {
+      case PlyPart::vertices: body.read_vertices(element, first); break;
+      case PlyPart::faces:
+      case PlyPart::strips: body.read_faces(element, first); break;
+      case PlyPart::sensors: body.read_sensors(element, first); break;
+      case PlyPart::camera: body.read_camera(element, first); break;
+      case PlyPart::other: break;
+    }
     first += element.count;
+  }
+}
+
+}  // namespace
+
+void read_ply_text(const MappedFile& file, const PlyHeader& header, RawGeometry& geometry, const Context& context) {
+  const std::string_view text = file.text().substr(header.body);
+  const RawGeometry before = geometry;
+  try {
+    read_lines(file, text, header, geometry, context);
+  } catch (const Error&) {
+    const auto other = one_record_a_line(text, header);
+    if (!other) throw;
+    geometry = before;
+    try {
+      read_lines(file, *other, header, geometry, context);
+    } catch (const Error& error) {
+      throw Error(std::string(error.what()) + " (lines are counted as if each record had one, as the file's are not)",
+                  error.help());
+    }
   }
 }
 

@@ -25,7 +25,7 @@ std::size_t width_of(std::string_view text) {
 class PtxReader {
  public:
   PtxReader(const std::shared_ptr<const MappedFile>& file, const Context& context)
-      : file_(file), lines_(file->text(), 1, true, context) {}
+      : file_(file), lines_(without_mark(file->text()), 1, true, context) {}
 
   RawGeometry read() {
     std::size_t row = 0;
@@ -107,19 +107,18 @@ class PtxReader {
 }  // namespace
 
 bool is_ptx(std::string_view text) {
-  for (const std::size_t width : header_widths) {
-    const std::size_t length = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, length);
-    text.remove_prefix(std::min(text.size(), length + 1));
+  std::size_t line_number = 0;
+  bool fits = true;
+  for_lines(without_mark(text), [&](std::string_view line) {
+    const std::size_t width = header_widths[line_number];
     std::size_t numbers = 0;
     double value = 0;
-    for (auto token = next_token(line); !token.empty(); token = next_token(line)) {
-      if (!parse_number(token, value) || (width == 1 && value != std::floor(value))) return false;
-      ++numbers;
-    }
-    if (numbers != width) return false;
-  }
-  return true;
+    for (auto token = next_token(line); !token.empty() && fits; token = next_token(line), ++numbers)
+      fits = parse_number(token, value) && (width != 1 || value == std::floor(value));
+    fits = fits && numbers == width;
+    return fits && ++line_number < header_rows;
+  });
+  return fits && line_number == header_rows;
 }
 
 RawGeometry read_ptx(const std::shared_ptr<const MappedFile>& file, const Context& context) {

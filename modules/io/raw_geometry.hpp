@@ -61,7 +61,8 @@ struct RawGeometry {
   std::size_t skipped_faces = 0;                           ///< faces of fewer than three corners
   std::optional<Eigen::Vector3d> viewpoint;                ///< sensor's place if the file states one, in its units
   std::vector<Eigen::Vector3d> sensors;                    ///< several of them; the column `source` is an index here
-  bool organised = false;  ///< an image of points: rows and columns of one shot of a depth camera
+  std::size_t image_width = 0;  ///< of an image of points, row by row, as one shot of a depth camera is; 0: it is none
+  bool float_table = false;     ///< the columns are a table of doubles, but the file's coordinates are float32
   std::vector<std::shared_ptr<const void>> storage;  ///< what the columns point into
 
   Column& column(Role role) { return columns[static_cast<std::size_t>(role)]; }

@@ -8,6 +8,7 @@ namespace atrium::io {
 ReadMesh::Out ReadMesh::run(const In& /*in*/, const Params& params, Context& context) {
   const RawGeometry geometry = read_geometry(params.path.path, context);
   Mesh mesh = decode_mesh(geometry, params.scale, context);
+  warn_of_lost_digits(geometry, mesh.origin, params.scale, context);
   if (mesh.triangles.empty()) context.warn(params.path.path + ": the mesh has no triangles");
   return {std::move(mesh)};
 }

@@ -4,12 +4,14 @@
 
 namespace atrium::io {
 
-/// Reads a triangle mesh: PLY, OBJ, STL (formats as in io.read_scan). Polygons become fans of triangles. Vertices stay
+/// Reads a triangle mesh: PLY, OBJ, STL (formats as in io.read_scan). Polygons become fans of triangles, and strips of
+/// PLY triangles. Vertices stay
 /// double; vertex colours are kept; `class`, `storey` and `primitive` of the faces are read back from PLY (face
 /// properties) and, without storeys, from OBJ (groups "wall_12"), as io.write_mesh wrote them.
 ///
 /// Origin: as in io.read_scan. Errors: file missing, empty, truncated or malformed (with line or byte). Warnings: faces
-/// of fewer than three corners and triangles on vertices that are not finite (both left out), a mesh without triangles.
+/// of fewer than three corners and triangles on vertices that are not finite (both left out), a mesh without triangles,
+/// records with corners that are not read, float32 coordinates so far from zero that they lost millimetres.
 struct ReadMesh {
   static constexpr std::string_view type = "io.read_mesh";
   static constexpr std::string_view summary = "Reads a triangle mesh from a file.";

@@ -10,6 +10,7 @@
 #include "modules/geometry/poisson_disk.hpp"
 #include "modules/io/decode.hpp"
 #include "modules/io/duplicates.hpp"
+#include "modules/io/image_view.hpp"
 #include "modules/io/paths.hpp"
 #include "modules/io/read_geometry.hpp"
 #include "modules/io/thin_scan.hpp"
@@ -18,45 +19,56 @@
 namespace atrium::io {
 namespace {
 
-void set_sensor(const RawGeometry& geometry, const ReadScan::Params& params, double scale, Cloud& cloud) {
+/// The place that the file names; the file's zero if it is an image of points that was taken from there.
+std::optional<Eigen::Vector3d> viewpoint_of(const RawGeometry& geometry, const Cloud& cloud, const Context& context) {
+  const Eigen::Vector3d viewpoint = geometry.viewpoint.value_or(Eigen::Vector3d::Zero());
+  if (!viewpoint.allFinite()) return std::nullopt;
+  if (!viewpoint.isZero(0)) return viewpoint;
+  if (geometry.image_width == 0) return std::nullopt;
+  if (cloud.origin.isZero(0) && is_image_from(geometry, viewpoint)) return viewpoint;
+  context.warn(
+      geometry.path +
+      ": seen from zero, the viewpoint in the file, its points are no image: they may be in the frame of a map. "
+      "Where the scanner stood is taken to be not known; -s scan.sensor=origin puts it at zero");
+  return std::nullopt;
+}
+
+void set_sensor(const RawGeometry& geometry, const ReadScan::Params& params, double scale, Cloud& cloud,
+                const Context& context) {
   if (params.sensor == ReadScan::SensorUse::automatic && !cloud.sensors.empty()) return;  // several, with sources
   cloud.sensors.clear();
   cloud.source.clear();
   std::optional<Eigen::Vector3d> place;
   if (params.sensor == ReadScan::SensorUse::origin) place = Eigen::Vector3d::Zero();
   if (params.sensor == ReadScan::SensorUse::automatic) {
-    const Eigen::Vector3d viewpoint = geometry.viewpoint.value_or(Eigen::Vector3d::Zero());
-    if (viewpoint.allFinite() && (!viewpoint.isZero(0) || geometry.organised)) place = viewpoint * scale;
+    place = viewpoint_of(geometry, cloud, context);
+    if (place) *place *= scale;
   }
   if (place) cloud.sensors = {(*place - cloud.origin).cast<float>()};
 }
 
-void hint_at_unit(const std::string& path, const Cloud& cloud, const Context& context) {
-  constexpr float large = 500.0F;  // metres: no interior is longer, but 500 mm is less than any room
-  const Eigen::Vector3f extent = bounds_of(cloud.points, context).extent();
-  if (extent.maxCoeff() > large)
-    context.warn(fmt::format("{}: the extent is {:.0f} × {:.0f} × {:.0f} m: if these are millimetres, set unit: mm",
-                             path, extent.x(), extent.y(), extent.z()));
+std::string sizes_of(const Eigen::Vector3f& extent, double factor) {
+  const Eigen::Vector3d size = extent.cast<double>() * factor;
+  return fmt::format("{:.3g} × {:.3g} × {:.3g} m", size.x(), size.y(), size.z());
 }
 
-/// float32 has 24 bits: far from zero the coordinates move in steps.
-void warn_of_lost_digits(const RawGeometry& geometry, const Cloud& cloud, double scale, const Context& context) {
-  constexpr double fine = 0.001;  // metres
-  if (geometry.source || geometry.column(Role::x).type != Scalar::f32) return;
-  double worst = 0;
-  int axis = 0;
-  for (int a = 0; a < 3; ++a) {
-    const auto there = static_cast<float>(std::abs(cloud.origin[a]) / scale);
-    const double step = (std::nextafter(there, std::numeric_limits<float>::max()) - there) * scale;
-    if (step <= worst) continue;
-    worst = step;
-    axis = a;
-  }
-  if (worst > fine)
+/// What is far larger than an interior, or smaller than a room, is in another unit than was taken.
+void hint_at_unit(const std::string& path, const Cloud& cloud, bool forced, const Context& context) {
+  constexpr float large = 500.0F;  // metres: no interior is longer, but 500 mm is less than any room
+  constexpr float low = 2.5F;      // metres: a room is higher or longer
+  constexpr float small = 2.0F;    // cubic metres
+  constexpr std::size_t few = 500;
+  const Eigen::Vector3f extent = bounds_of(cloud.points, context).extent();
+  if (extent.maxCoeff() > large)
     context.warn(
-        fmt::format("{}: coordinates along {} are in steps of {:.2g} m, as float32 is so far from zero: what was finer "
-                    "is lost; export as double, or shifted",
-                    geometry.path, "xyz"[axis], worst));
+        fmt::format("{}: the extent is {:.0f} × {:.0f} × {:.0f} m: if these are centimetres, set unit: cm (then "
+                    "it is {}); if these are millimetres, set unit: mm ({})",
+                    path, extent.x(), extent.y(), extent.z(), sizes_of(extent, 0.01), sizes_of(extent, 0.001)));
+  else if (!forced && cloud.size() >= few && extent.maxCoeff() > 0 && extent.maxCoeff() < low && extent.prod() < small)
+    context.warn(
+        fmt::format("{}: the extent is {}, less than a room's: if the file is in another unit or in none, set "
+                    "scale (metres per unit)",
+                    path, sizes_of(extent, 1)));
 }
 
 bool usually_y_up(const std::string& path) {
@@ -94,6 +106,15 @@ double unit_of(const RawGeometry& geometry, const ReadScan::Params& params, cons
 }
 
 void warn_of_duplicates(const std::string& path, const Cloud& cloud, const Context& context) {
+  if (const std::size_t places = few_places(cloud.points); places > 0) {
+    const Eigen::Vector3d first = cloud.origin + cloud.points.front().cast<double>();
+    context.warn(
+        fmt::format("{}: all {} points lie in {}, the first at {:g} {:g} {:g}: was the file written or copied to "
+                    "its end?",
+                    path, cloud.size(), places == 1 ? "one place" : fmt::format("{} places", places), first.x(),
+                    first.y(), first.z()));
+    return;
+  }
   const double share = duplicate_share(cloud.points, context);
   if (share > 0.1)
     context.warn(fmt::format("{}: about {:.0f} % of the points lie exactly on others; filter.voxel_grid joins them",
@@ -151,10 +172,13 @@ ReadScan::Out ReadScan::run(const In& /*in*/, const Params& params, Context& con
   cloud.unit = scale;
   cloud.y_up = usually_y_up(path);
   cloud.crs = geometry.crs;
-  set_sensor(geometry, params, scale, cloud);
-  warn_of_lost_digits(geometry, cloud, scale, context);
-  hint_at_unit(path, cloud, context);
-  if (!thin) warn_of_duplicates(path, cloud, context);
+  set_sensor(geometry, params, scale, cloud, context);
+  warn_of_lost_digits(geometry, cloud.origin, scale, context);
+  hint_at_unit(path, cloud, params.scale != 1.0 || (known && params.unit != Unit::metre), context);
+  if (!thin)
+    warn_of_duplicates(path, cloud, context);
+  else if (cloud.size() < 3)
+    context.warn(fmt::format("{}: all points lie in {} voxels of {} m", path, cloud.size(), params.voxel));
   return {std::move(cloud)};
 }
 

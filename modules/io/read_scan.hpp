@@ -13,7 +13,8 @@ namespace atrium::io {
 /// intensities of E57 as 0 to 1 where they have limits; classifications as labels. Records that say that they are no
 /// points are left out: E57's invalid states, (0, 0, 0) in E57's and PTX's grids, withheld points of LAS. Images in E57
 /// are passed over. Files that only their makers' programs read (RCP, FLS, ZFS and so on) are refused, saying what to
-/// export.
+/// export. Text may be spelled in any common way: lines that end with LF, CR LF or CR, a byte order mark, capitals.
+/// What comes through a pipe is read whole, in the format that it begins with.
 ///
 /// A mesh becomes points on its surface (paper, "Data set preparation": Poisson-disk samples, as many as it has
 /// vertices).
@@ -33,7 +34,8 @@ namespace atrium::io {
 ///
 /// Errors: file missing, empty, truncated or malformed (with line or byte), without points, with fewer than three
 /// finite points. Warnings: points that are not finite (dropped), normals that are not (left out), a unit that is not
-/// metres or in doubt, float32 coordinates so far from zero that they lost millimetres, many points in one place.
+/// metres or in doubt, an extent that no interior has, float32 coordinates so far from zero that they lost millimetres,
+/// many points in one place, colours above their range (cut), surfaces that are not read.
 struct ReadScan {
   static constexpr std::string_view type = "io.read_scan";
   static constexpr std::string_view summary = "Reads a point cloud or mesh file as a cloud.";
@@ -84,7 +86,8 @@ struct ReadScan {
           {{"auto", SensorUse::automatic}, {"origin", SensorUse::origin}, {"none", SensorUse::none}},
           "Where the scanner stood. auto: where the file says (poses of E57 and PTX, VIEWPOINT of PCD, camera of PLY; "
           "several places as io.write_cloud writes them to PLY), if that is not the all-zero default, which exported "
-          "clouds have too; the file's origin if the points are one depth image (PCD with a height above 1). origin: "
+          "clouds have too; the file's origin if the points are one depth image (PCD with a height above 1) that was "
+          "taken from there. origin: "
           "the file's origin. none: not known."),
       param<&Params::voxel>(
           metres, within(0, 100),

@@ -5,6 +5,11 @@
 #include "modules/io/text_layout.hpp"
 
 namespace atrium::io {
+namespace {
+
+bool is_colour(Role role) { return role == Role::red || role == Role::green || role == Role::blue; }
+
+}  // namespace
 
 RowSource::RowSource(std::shared_ptr<const MappedFile> file, Lines lines, const TextDialect& dialect,
                      std::vector<Role> roles, std::vector<RowScan> scans, bool places_known)
@@ -16,6 +21,25 @@ RowSource::RowSource(std::shared_ptr<const MappedFile> file, Lines lines, const 
   for (const Role role : columns_)
     if (role != Role::none) provide(role);
   if (places_known && scans_.size() > 1) provide(Role::source);
+  if (has(Role::red) && has_fractions_of_colours()) colour_factor_ = 255;
+}
+
+/// Whether the colours of the first rows are all within 0 … 1, and not all whole.
+bool RowSource::has_fractions_of_colours() const {
+  constexpr std::size_t looked_at = 1000;
+  std::vector<double> numbers(columns_.size());
+  bool fractions = false, within = true;
+  const RowScan& scan = scans_.front();
+  for (std::size_t p = 0; p < lines_.pieces().size() && within; ++p)
+    lines_.rows_of(p, scan.first, scan.first + std::min(scan.rows, looked_at), [&](const Row& row) {
+      read_numbers(file_->path(), row, dialect_, columns_, numbers.data());
+      for (std::size_t c = 0; c < columns_.size(); ++c) {
+        if (!is_colour(columns_[c])) continue;
+        within = within && numbers[c] >= 0 && numbers[c] <= 1;
+        fractions = fractions || (numbers[c] > 0 && numbers[c] < 1);
+      }
+    });
+  return within && fractions;
 }
 
 void RowSource::read(std::size_t block, PointBlock& to) const {
@@ -32,7 +56,8 @@ void RowSource::read(std::size_t block, PointBlock& to) const {
     lines_.rows_of(block, scan->first, scan->first + scan->rows, [&](const Row& row) {
       read_numbers(file_->path(), row, dialect_, columns_, numbers.data());
       for (std::size_t c = 0; c < columns_.size(); ++c)
-        if (columns_[c] != Role::none) to.of(columns_[c])[kept] = numbers[c];
+        if (columns_[c] != Role::none)
+          to.of(columns_[c])[kept] = is_colour(columns_[c]) ? colour_factor_ * numbers[c] : numbers[c];
       double &x = to.of(Role::x)[kept], &y = to.of(Role::y)[kept], &z = to.of(Role::z)[kept];
       if (scan->zeros_are_misses && x == 0 && y == 0 && z == 0) {
         ++to.misses;

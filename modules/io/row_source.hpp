@@ -20,7 +20,7 @@ struct RowScan {
 };
 
 /// The points of a text file, one a row, in scans: a block is a piece of the file of about a megabyte. Colours are as
-/// they stand there, 0 … 255.
+/// they stand there, 0 … 255; times 255 where those of the first rows are fractions of 1.
 class RowSource : public PointSource {
  public:
   /// `roles`: of the columns, the same in all scans, which come in the order of rows. Several scans are told apart by
@@ -34,11 +34,14 @@ class RowSource : public PointSource {
   std::size_t samples() const override { return 10; }
 
  private:
+  bool has_fractions_of_colours() const;
+
   std::shared_ptr<const MappedFile> file_;
   Lines lines_;
   TextDialect dialect_;
   std::vector<Role> columns_;
   std::vector<RowScan> scans_;
+  double colour_factor_ = 1;
 };
 
 }  // namespace atrium::io

@@ -44,19 +44,36 @@ class Welder {
   std::vector<Corner> vertices_;
 };
 
+constexpr bool stl_swapped = std::endian::native == std::endian::big;
 constexpr std::size_t binary_head = 84;
 constexpr std::size_t binary_facet = 50;
 
-void read_binary(const MappedFile& file, RawGeometry& geometry) {
-  constexpr bool swapped = std::endian::native == std::endian::big;
+/// The number of facets as it is declared; where none are, as programs that write to a pipe leave it, as there is room
+/// for.
+std::uint64_t facets_of(const MappedFile& file, const Context& context) {
+  const std::uint64_t declared = load<std::uint32_t>(file.data() + 80, stl_swapped);
+  const std::uint64_t room = (file.size() - binary_head) / binary_facet;
+  const bool whole = room > 0 && binary_head + room * binary_facet == file.size();
+  if (whole && (declared == 0 || declared == 0xFFFFFFFF)) {
+    context.warn(fmt::format("{}: {} facets are declared, but {} follow: all are read", file.path(), declared, room));
+    return room;
+  }
+  if (declared > room)
+    throw Error(fmt::format("{}: truncated: {} facets of 50 bytes are to follow byte 84, but the file has {} bytes",
+                            file.path(), declared, file.size()),
+                "the header promises more than the file holds: copy or export it again");
+  if (declared < room)
+    context.warn(fmt::format("{}: {} facets are declared, and {} bytes more follow: these are not read", file.path(),
+                             declared, file.size() - binary_head - declared * binary_facet));
+  return declared;
+}
+
+void read_binary(const MappedFile& file, RawGeometry& geometry, const Context& context) {
   if (file.size() < binary_head)
     throw Error(fmt::format("{}: truncated: an STL file has a head of 84 bytes, but the file has {} bytes", file.path(),
                             file.size()));
-  const std::uint64_t facets = load<std::uint32_t>(file.data() + 80, swapped);
-  if (facets > (file.size() - binary_head) / binary_facet)
-    throw Error(fmt::format("{}: truncated: {} facets of 50 bytes are to follow byte 84, but the file has {} bytes",
-                            file.path(), facets, file.size()),
-                "the header promises more than the file holds: copy or export it again");
+  const std::uint64_t facets = facets_of(file, context);
+  geometry.float_table = true;
   Welder welder;
   geometry.triangles.reserve(facets);
   for (std::uint64_t f = 0; f < facets; ++f) {
@@ -65,7 +82,7 @@ void read_binary(const MappedFile& file, RawGeometry& geometry) {
     for (auto& vertex : triangle) {
       Corner corner{};
       for (double& v : corner) {
-        v = load<float>(at, swapped);
+        v = load<float>(at, stl_swapped);
         at += sizeof(float);
       }
       vertex = welder.add(corner);
@@ -75,54 +92,74 @@ void read_binary(const MappedFile& file, RawGeometry& geometry) {
   welder.finish(geometry);
 }
 
-/// Text: only the lines "vertex x y z" count; each three of them, between "outer loop" and "endloop", are a facet.
+/// Text: the numbers after "vertex" count; each three of them, between "outer loop" and "endloop", are a facet. Upper
+/// and lower case are the same, and a line may hold any part of it.
 class TextParser {
  public:
   TextParser(const MappedFile& file, RawGeometry& geometry) : file_(file), geometry_(geometry) {}
 
   void read(const Context& context) {
-    const Lines lines(file_.text(), 1, false, context);
-    for (const auto& piece : lines.pieces()) {
-      std::size_t number = piece.first_line;
-      for (std::string_view rest = piece.text; !rest.empty(); ++number) {
-        const std::size_t length = std::min(rest.find('\n'), rest.size());
-        line(rest.substr(0, length), number);
-        rest.remove_prefix(std::min(rest.size(), length + 1));
-      }
-      context.check_cancelled();
-    }
-    if (in_loop_) fail(lines.end_line(), "the file ends within a facet (truncated?)");
-    if (!ended_) fail(lines.end_line(), "the file ends without 'endsolid' (truncated?)");
+    constexpr std::size_t often = 100000;  // lines
+    for_lines(without_mark(file_.text()), [&](std::string_view text) {
+      if (++line_ % often == 0) context.check_cancelled();
+      read_line(text);
+      return true;
+    });
+    if (in_loop_) fail("the file ends within a facet (truncated?)");
+    if (!ended_) fail("the file ends without 'endsolid' (truncated?)");
     welder_.finish(geometry_);
   }
 
  private:
-  [[noreturn]] void fail(std::size_t line, const std::string& what) const {
-    throw Error(fmt::format("{}:{}: {}", file_.path(), line, what));
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Error(fmt::format("{}:{}: {}", file_.path(), line_, what));
   }
 
-  void line(std::string_view text, std::size_t number) {
-    const std::string_view keyword = next_token(text);
-    if (keyword == "vertex") {
-      Corner corner{};
-      for (double& v : corner) {
-        const std::string_view token = next_token(text);
-        if (!parse_number(token, v)) fail(number, quote(token) + " is not a number");
+  void read_line(std::string_view text) {
+    for (auto token = next_token(text); !token.empty(); token = next_token(text)) {
+      if (numbers_left_ > 0 && read_number(token)) continue;
+      std::string keyword = lower_case(token);
+      if (keyword == "end") keyword += lower_case(next_token(text));  // "end loop"
+      if (keyword == "endsolid" || keyword == "solid") {
+        ended_ = keyword == "endsolid";
+        return;  // its name follows
       }
-      if (!in_loop_) fail(number, "a vertex outside of 'outer loop' … 'endloop'");
-      corners_.push_back(welder_.add(corner));
+      read_keyword(keyword);
+    }
+  }
+
+  /// A number of a normal, which is not looked at, or of a vertex. False if a normal ends early.
+  bool read_number(std::string_view token) {
+    if (!in_vertex_ && lower_case(token) == "outer") {
+      numbers_left_ = 0;
+      return false;
+    }
+    --numbers_left_;
+    if (!in_vertex_) return true;
+    if (!parse_number(token, corner_[2 - numbers_left_])) fail(quote(token) + " is not a number");
+    if (numbers_left_ > 0) return true;
+    corners_.push_back(welder_.add(corner_));
+    in_vertex_ = false;
+    return true;
+  }
+
+  void read_keyword(const std::string& keyword) {
+    if (keyword == "vertex") {
+      if (!in_loop_) fail("a vertex outside of 'outer loop' … 'endloop'");
+      in_vertex_ = true;
+      numbers_left_ = 3;
+    } else if (keyword == "normal") {
+      numbers_left_ = 3;
     } else if (keyword == "outer") {
-      if (in_loop_) fail(number, "'outer loop' before the 'endloop' of the last one");
+      if (in_loop_) fail("'outer loop' before the 'endloop' of the last one");
       in_loop_ = true;
     } else if (keyword == "endloop") {
-      if (!in_loop_ || corners_.size() != 3) fail(number, fmt::format("a facet of {} vertices", corners_.size()));
+      if (!in_loop_ || corners_.size() != 3) fail(fmt::format("a facet of {} vertices", corners_.size()));
       geometry_.triangles.push_back({corners_[0], corners_[1], corners_[2]});
       corners_.clear();
       in_loop_ = false;
-    } else if (keyword == "endsolid" || keyword == "solid") {
-      ended_ = keyword == "endsolid";
-    } else if (!keyword.empty() && keyword != "facet" && keyword != "endfacet") {
-      fail(number, "unknown keyword " + quote(keyword));
+    } else if (keyword != "facet" && keyword != "endfacet" && keyword != "loop") {
+      fail("unknown keyword " + quote(keyword));
     }
   }
 
@@ -130,22 +167,31 @@ class TextParser {
   RawGeometry& geometry_;
   Welder welder_;
   std::vector<std::uint32_t> corners_;
-  bool in_loop_ = false, ended_ = false;
+  Corner corner_{};
+  std::size_t numbers_left_ = 0, line_ = 0;
+  bool in_loop_ = false, in_vertex_ = false, ended_ = false;
 };
 
 }  // namespace
 
+bool begins_as_stl_text(std::string_view text) {
+  constexpr std::size_t looked_at = 1024;
+  text = without_mark(text).substr(0, looked_at);
+  if (text.find('\0') != std::string_view::npos) return false;
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  return lower_case(text.substr(0, 5)) == "solid";
+}
+
 RawGeometry read_stl(const std::shared_ptr<const MappedFile>& file, const Context& context) {
   RawGeometry geometry;
   geometry.path = file->path();
-  const bool solid = file->text().starts_with("solid");
-  const bool has_zero = file->text().substr(0, 1024).find('\0') != std::string_view::npos;
-  const bool exact = file->size() >= binary_head &&
-                     binary_head + binary_facet * std::uint64_t{load<std::uint32_t>(file->data() + 80)} == file->size();
-  if (!exact && solid && !has_zero)
+  const bool exact =
+      file->size() >= binary_head &&
+      binary_head + binary_facet * std::uint64_t{load<std::uint32_t>(file->data() + 80, stl_swapped)} == file->size();
+  if (!exact && begins_as_stl_text(file->text()))
     TextParser(*file, geometry).read(context);
   else
-    read_binary(*file, geometry);
+    read_binary(*file, geometry, context);
   return geometry;
 }
 

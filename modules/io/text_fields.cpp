@@ -71,7 +71,10 @@ std::vector<std::string_view> fields_of(std::string_view line, const TextDialect
   return fields;
 }
 
-TextDialect dialect_of(const std::vector<std::string_view>& lines) {
+TextDialect dialect_of(const std::vector<std::string_view>& given) {
+  std::vector<std::string_view> lines = given;
+  for (auto& line : lines)  // a tab at the end separates nothing
+    while (!line.empty() && is_field_blank(line.back())) line.remove_suffix(1);
   const auto all_have = [&](char c) {
     return std::all_of(lines.begin(), lines.end(),
                        [&](std::string_view l) { return l.find(c) != std::string_view::npos; });

@@ -58,17 +58,14 @@ bool is_numeric(const Fields& fields, const TextDialect& dialect) {
 /// The last comment before the first row that names columns.
 std::string_view names_in_comments(std::string_view text) {
   std::string_view names;
-  while (!text.empty()) {
-    const std::size_t length = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, length);
-    text.remove_prefix(std::min(text.size(), length + 1));
-    const std::size_t begin = line.find_first_not_of(" \t\r");
-    if (begin == std::string_view::npos) continue;
-    line.remove_prefix(begin);
-    if (!line.starts_with('#') && !line.starts_with("//")) break;
+  for_lines(text, [&](std::string_view line) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (line.empty()) return true;
+    if (!line.starts_with('#') && !line.starts_with("//")) return false;
     line.remove_prefix(std::min(line.find_first_not_of("#/"), line.size()));
     if (!named_roles(line, {}, 0).empty()) names = line;
-  }
+    return true;
+  });
   return names;
 }
 
@@ -232,7 +229,7 @@ TextLayout text_layout(const std::string& path, std::string_view text, const Lin
   std::size_t end = lines.rows();
   const Fields first = tokens_of(lines.row(0).text);
   double count = 0;
-  if (first.size() == 1 && lines.rows() > 1 && parse_number(first[0], count)) {  // PTS: the number of points
+  if (first.size() == 1 && parse_number(first[0], count) && (lines.rows() > 1 || count == 0)) {  // PTS: how many points
     auto scans = counted_scans(path, lines, context);
     layout.first_row = scans.front().first;
     end = layout.first_row + scans.front().rows;

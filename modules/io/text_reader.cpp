@@ -8,10 +8,11 @@
 namespace atrium::io {
 
 RawGeometry read_text(const std::shared_ptr<const MappedFile>& file, const Context& context) {
-  if (file->text().substr(0, 4096).find('\0') != std::string_view::npos)
+  const std::string_view text = without_mark(file->text());
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    throw Error(file->path() + ": text in UTF-16, which is not read", "save it as UTF-8 or ASCII");
+  if (text.substr(0, 4096).find('\0') != std::string_view::npos)
     throw Error(file->path() + ": not a text file (it has zero bytes)");
-  std::string_view text = file->text();
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark, as spreadsheets write it
   Lines lines(text, 1, true, context);
   const TextLayout layout = text_layout(file->path(), text, lines, context);
   RawGeometry geometry;

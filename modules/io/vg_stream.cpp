@@ -17,7 +17,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' |
 
 class TextStream final : public VgStream {
  public:
-  explicit TextStream(const MappedFile& file) : path_(file.path()), text_(file.text()) {}
+  explicit TextStream(const MappedFile& file) : path_(file.path()), text_(without_mark(file.text())) {}
 
   std::uint64_t count(std::string_view what, std::size_t numbers) override {
     name(what);
@@ -58,8 +58,10 @@ class TextStream final : public VgStream {
     if (token("group_label").starts_with("group_color:")) place_ = here;
   }
   std::string where() const override {
-    const auto lines = std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(last_), '\n');
-    return fmt::format("{}:{}", path_, lines + 1);
+    std::size_t line = 1;
+    for (std::size_t i = 0; i < last_; ++i)
+      if (text_[i] == '\n' || (text_[i] == '\r' && !text_.substr(i + 1).starts_with('\n'))) ++line;
+    return fmt::format("{}:{}", path_, line);
   }
 
  private:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "modules/layout/blank_gaps.hpp"
 #include "modules/layout/opening_pairs.hpp"
@@ -33,6 +34,42 @@ void take_blank_windows(std::vector<BlankGap> gaps, Found& found, const Context&
     context.warn(told(left,
                       "gaps in walls have the size of windows, but nothing was seen behind them: they are left "
                       "closed"));
+}
+
+struct HeightRange {
+  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+  void add(double z) {
+    low = std::min(low, z);
+    high = std::max(high, z);
+  }
+};
+
+/// Whether the opening would be a door if the building stood on its head: it hangs from the ceiling, is as high as a
+/// door and ends well above the floor.
+bool is_hanging_door(const Building& building, const BuildingOpening& opening) {
+  constexpr double at_ceiling = 0.12, off_floor = 0.25, lowest = 1.8, highest = 2.3;  // metres
+  if (opening.kind != "window") return false;
+  HeightRange hole, wall;
+  for (const auto& corner : opening.outline_a) hole.add(corner.z());
+  for (const auto v : building.faces[static_cast<std::size_t>(opening.face_a)].outline)
+    wall.add(building.vertices[v].z());
+  const double height = hole.high - hole.low;
+  return wall.high - hole.high < at_ceiling && hole.low - wall.low > off_floor && height > lowest && height < highest;
+}
+
+/// Nothing else than its doors shows that an empty flat stands on its head.
+void warn_of_hanging_doors(const Building& building, const Context& context) {
+  const auto& all = building.openings;
+  const bool stands = std::any_of(all.begin(), all.end(), [](const BuildingOpening& opening) {
+    return opening.kind == "door" || opening.kind == "passage";
+  });
+  const auto hanging = std::count_if(
+      all.begin(), all.end(), [&](const BuildingOpening& opening) { return is_hanging_door(building, opening); });
+  if (!stands && hanging > 0)
+    context.warn(
+        fmt::format("no door stands on a floor, but {} openings hang from the ceiling as doors would if the scan "
+                    "stood on its head: if z points down, -s upright.up=[0,0,-1]",
+                    hanging));
 }
 
 }  // namespace
@@ -71,6 +108,7 @@ Openings::Out Openings::run(const In& in, const Params& params, Context& context
   };
   context.info(fmt::format("{} doors, {} passages, {} windows, {} slab openings; {} walls seen from both sides",
                            count("door"), count("passage"), count("window"), count("slab"), building.walls.size()));
+  warn_of_hanging_doors(building, context);
   if (doubtful > 0)
     context.info(fmt::format("{} openings are left out: too little of the faces around them was seen", doubtful));
   Building relative;  // the openings alone, to the building's own origin

@@ -31,6 +31,9 @@ namespace atrium::layout {
 /// - Rectangles of two faces back to back that lie over each other are one opening: it joins their rooms, and has the
 ///   thickness of the wall; each side is where more points say so.
 ///
+/// Where no door stands on a floor, but windows hang from the ceiling as doors would upside down, a warning says so:
+/// the scan's z may point down.
+///
 /// The wall pairs (two faces back to back at most max_thickness apart, with their overlap) are written too. Faces of no
 /// room have no openings. The building and the cloud may have different origins. Errors: an index in the building of
 /// what is not there, a face of fewer than three corners, a number that is not finite. No random numbers. Source:

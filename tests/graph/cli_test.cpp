@@ -116,6 +116,72 @@ TEST_F(CommandLine, AFileThatIsNotThereIsCodeThree) {
   EXPECT_EQ(result.err.find("nowhere.yaml: error: no such pipeline file\n  help: looked for "), 0U) << result.err;
 }
 
+TEST_F(CommandLine, AnEmptyWordIsSaid) {
+  for (const auto& [arguments, what] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"run good.yaml --out ''", "the value of --out is empty"},
+           {"run good.yaml --out=", "the value of --out is empty"},
+           {"check ''", "argument 2 is empty"}}) {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_EQ(result.err.find("atrium: error: " + what + "\n"), 0U) << result.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "runs"));
+}
+
+TEST_F(CommandLine, APipelineComesThroughAPipe) {
+  folder.write("pipe.sh", "cat good.yaml | \"$1\" check /dev/stdin && \"$1\" check <(cat good.yaml)\n");
+  const Result result = run("nodes >/dev/null; bash pipe.sh '" ATRIUM_PROGRAM "'");
+  EXPECT_EQ(result.out, "ok: 3 nodes\nok: 3 nodes\n") << result.err;
+}
+
+TEST_F(CommandLine, ABrokenLinkIsNamedAsOne) {
+  std::filesystem::create_symlink("/nowhere/at/all", folder.path() / "link.yaml");
+  std::filesystem::create_symlink("round.xyz", folder.path() / "round.xyz");
+  const Result pipeline = run("check link.yaml");
+  EXPECT_EQ(pipeline.code, 3);
+  EXPECT_NE(pipeline.err.find("no such pipeline file: it is a link to /nowhere/at/all, which is not there"),
+            std::string::npos)
+      << pipeline.err;
+  folder.write("reads.yaml",
+               "atrium: 1\nvars: {file: }\nnodes:\n  r: {type: test.read, params: {path: \"${file}\"}}\n"
+               "outputs: {cloud: r.cloud}\n");
+  const Result scan = run("check reads.yaml -s file=link.yaml");
+  EXPECT_NE(scan.err.find("link.yaml is a link to /nowhere/at/all, which is not there"), std::string::npos) << scan.err;
+  EXPECT_EQ(scan.err.find("did you mean"), std::string::npos) << scan.err;
+  const Result round = run("check reads.yaml -s file=round.xyz");
+  EXPECT_NE(round.err.find("is a link to round.xyz, which leads round in a circle"), std::string::npos) << round.err;
+}
+
+TEST_F(CommandLine, AWorkingFolderThatIsGoneIsSaid) {
+  folder.write("gone.sh",
+               "mkdir gone && cd gone && rmdir ../gone && \"$1\" run ../good.yaml --out here\n"
+               "\"$1\" run \"$2\" --out here\n");
+  const Result result = run("nodes >/dev/null; bash gone.sh '" ATRIUM_PROGRAM "' '" + good.string() + "'");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.err.find("atrium: error: the working folder is not there any more"), std::string::npos)
+      << result.err;
+}
+
+TEST_F(CommandLine, ARunInAFolderWithoutUtf8NameCanBeCompared) {
+  folder.write("named.sh",
+               "mkdir $'d\\xe4' && cd $'d\\xe4' && cp ../good.yaml . && \"$1\" run good.yaml -q --out o && "
+               "\"$1\" diff o o && \"$1\" report o -o page.html\n");
+  const Result result = run("nodes >/dev/null; bash named.sh '" ATRIUM_PROGRAM "'");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("the same"), std::string::npos) << result.out;
+}
+
+TEST_F(CommandLine, CombinationsOfASweepAreCounted) {
+  std::string values = "[1", many = "grid:\n";
+  for (int i = 2; i <= 1000; ++i) values += "," + std::to_string(i);
+  values += "]\n";
+  for (const std::string axis : {"planes.a", "planes.b"}) many += "  " + axis + ": " + values;
+  folder.write("sweep.yaml", "atrium: 1\nsweep: good.yaml\nseeds: " + values + many);
+  const Result result = run("sweep plan sweep.yaml");
+  EXPECT_NE(result.err.find("the sweep has 1000000000 combinations, more than 100000"), std::string::npos)
+      << result.err;
+}
+
 TEST_F(CommandLine, APluginThatCannotBeUsedIsCodeFive) {
   folder.write("plugin.yaml", "atrium: 1\nnodes: {a: {type: stranger.any}}\n");
   const Result result = run("check plugin.yaml");

@@ -171,7 +171,7 @@ TEST_F(Ply, HintsAtMillimetresAndScales) {
        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
        "end_header\n0 0 0\n5400 0 2900\n0 4300 0\n");
   EXPECT_EQ(read("mm.ply").points[1].x(), 5400.0F);
-  EXPECT_TRUE(warned("5400 × 4300 × 2900 m: if these are millimetres, set unit: mm")) << warnings();
+  EXPECT_TRUE(warned("if these are millimetres, set unit: mm (5.4 × 4.3 × 2.9 m)")) << warnings();
   host->warnings.clear();
   ReadScan::Params params;
   params.scale = 0.001;

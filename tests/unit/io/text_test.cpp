@@ -219,6 +219,12 @@ TEST_F(Text, PtxScansStandWhereTheirMatricesSay) {
   }
 }
 
+TEST_F(Text, ColoursOfScansMayBeFractions) {
+  const std::string points = "1 0 0 0.5 1 0.5 0\n1 1 0 0.5 0 0 1\n0 2 0 0.25 0.2 0.4 0.6\n0 0 1 1 1 1 1\n";
+  const Cloud cloud = read(ptx_head(2, 2, "0 0 0", still) + points, "a.ptx");
+  EXPECT_EQ(cloud.colours, (std::vector<Colour>{{255, 128, 0}, {0, 0, 255}, {51, 102, 153}, {255, 255, 255}}));
+}
+
 TEST_F(Text, PtxThatDoesNotFitTogetherIsRefused) {
   const std::string points = "1 0 0 0.5\n1 1 0 0.5\n0 2 0 0.25\n0 0 1 1\n";
   EXPECT_EQ(read(ptx_head(2, 2, "0 0 0", still) + points, "a.ptx").size(), 4U);
