@@ -1,0 +1,407 @@
+// Every format with everything that may be odd about a file: one table of formats, one test for each oddity.
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <thread>
+
+#include "files.hpp"
+#include "modules/io/read_scan.hpp"
+#include "modules/io/write_cloud.hpp"
+#include "modules/io/write_mesh.hpp"
+#include "modules/io/write_vg.hpp"
+#include "tests/support/e57_builder.hpp"
+#include "tests/support/las_builder.hpp"
+
+namespace atrium::io::matrix_test {
+namespace {
+
+/// Coordinates as they are written: also "nan" and "inf".
+using Points = std::vector<std::array<std::string, 3>>;
+
+double number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+
+std::string rows(const Points& points, const std::string& before = "", const std::string& after = "",
+                 const std::string& between = " ") {
+  std::string text;
+  for (const auto& p : points) text += before + p[0] + between + p[1] + between + p[2] + after + "\n";
+  return text;
+}
+
+template <class T>
+std::string numbers(const Points& points, bool swapped = false) {
+  std::string bytes;
+  for (const auto& p : points)
+    for (const auto& v : p) put(bytes, static_cast<T>(number(v)), swapped);
+  return bytes;
+}
+
+std::string ply(const Points& points, const std::string& format, const std::string& body) {
+  return "ply\nformat " + format + " 1.0\ncomment of a test\nelement vertex " + std::to_string(points.size()) +
+         "\nproperty double x\nproperty double y\nproperty double z\nend_header\n" + body;
+}
+
+std::string pcd(const Points& points, const std::string& data, const std::string& body) {
+  const std::string n = std::to_string(points.size());
+  return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + n +
+         "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA " + data + "\n" + body;
+}
+
+/// Field after field, in pieces of literal bytes.
+std::string compressed_pcd(const Points& points) {
+  std::string data, packed, body;
+  for (std::size_t a = 0; a < 3; ++a)
+    for (const auto& p : points) put(data, number(p[a]));
+  for (std::size_t i = 0; i < data.size(); i += 32) {
+    const std::string piece = data.substr(i, 32);
+    packed += static_cast<char>(piece.size() - 1) + piece;
+  }
+  put(body, static_cast<std::uint32_t>(packed.size()));
+  put(body, static_cast<std::uint32_t>(data.size()));
+  return pcd(points, "binary_compressed", body + packed);
+}
+
+/// Facets that all begin with the first two points.
+Points facets(const Points& points) {
+  Points corners;
+  for (std::size_t i = 2; i < points.size(); ++i)
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}, i}) corners.push_back(points[k]);
+  return corners;
+}
+
+std::string text_stl(const Points& points) {
+  std::string text = "solid of a test\n";
+  const Points corners = facets(points);
+  for (std::size_t i = 0; i < corners.size(); i += 3)
+    text +=
+        "facet normal 0 0 1\nouter loop\n" +
+        rows({corners.begin() + static_cast<std::ptrdiff_t>(i), corners.begin() + static_cast<std::ptrdiff_t>(i + 3)},
+             "vertex ") +
+        "endloop\nendfacet\n";
+  return text + "endsolid of a test\n";
+}
+
+std::string binary_stl(const Points& points) {
+  const Points corners = facets(points);
+  std::string bytes(80, ' ');
+  put(bytes, static_cast<std::uint32_t>(corners.size() / 3));
+  for (std::size_t i = 0; i < corners.size(); i += 3)
+    bytes += std::string(12, '\0') +
+             numbers<float>({corners.begin() + static_cast<std::ptrdiff_t>(i),
+                             corners.begin() + static_cast<std::ptrdiff_t>(i + 3)}) +
+             std::string(2, '\0');
+  return bytes;
+}
+
+std::string ptx(const Points& points) {
+  return std::to_string(points.size()) + "\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n" +
+         rows(points, "", " 0.5");
+}
+
+std::string e57(const Points& points, std::int64_t records = -1) {
+  test::E57TestScan scan;
+  const char* names[3] = {"cartesianX", "cartesianY", "cartesianZ"};
+  for (std::size_t a = 0; a < 3; ++a) {
+    std::vector<double> values;
+    for (const auto& p : points) values.push_back(number(p[a]));
+    scan.streams.push_back(test::f64(names[a], values));
+  }
+  scan.records = records;
+  return test::E57Builder().add(scan).file();
+}
+
+std::string las(const Points& points) {
+  test::LasBuilder builder;
+  builder.scale = 0.005;
+  for (const auto& p : points) {
+    test::LasBuilder::Point point;
+    std::int32_t* const to[3] = {&point.x, &point.y, &point.z};
+    for (std::size_t a = 0; a < 3; ++a) *to[a] = static_cast<std::int32_t>(std::lround(number(p[a]) / builder.scale));
+    builder.add(point);
+  }
+  return builder.file();
+}
+
+struct Format {
+  std::string name;
+  std::function<std::string(const Points&)> make;
+  bool text = false;          ///< all of it; else there may be a header of text
+  std::string end_of_header;  ///< of a binary file with a header of lines
+  bool any_number = true;     ///< has NaN and infinities
+  bool keeps_utm = true;      ///< has double coordinates
+  /// Of a file's bytes, where more points are declared.
+  std::function<std::string(std::string)> declare = nullptr;
+};
+
+std::string replace_all(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+std::string put_count(std::string bytes, std::size_t at) {
+  const std::uint32_t count = 1000000000;
+  std::memcpy(bytes.data() + at, &count, 4);
+  return bytes;
+}
+
+class Matrix : public Files {
+ protected:
+  Matrix() { std::signal(SIGXFSZ, SIG_IGN); }
+
+  const Points five = {
+      {"0.5", "0.25", "0.125"}, {"1", "0", "0.5"}, {"0", "1", "0.25"}, {"0", "0", "2.5"}, {"1.5", "2", "1"}};
+
+  std::string laz(const Points& points) {
+    Cloud cloud;
+    for (const auto& p : points)
+      cloud.points.push_back(Eigen::Vector3d(number(p[0]), number(p[1]), number(p[2])).cast<float>());
+    const Eigen::Vector3d first =
+        points.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(number(points[0][0]), number(points[0][1]), 0);
+    if (first.norm() > 1000) {
+      cloud.origin = first.array().floor();
+      for (std::size_t i = 0; i < points.size(); ++i)
+        cloud.points[i] =
+            (Eigen::Vector3d(number(points[i][0]), number(points[i][1]), number(points[i][2])) - cloud.origin)
+                .cast<float>();
+    }
+    WriteCloud::run({input(cloud)}, {{"made.laz"}, true}, context);
+    return content("made.laz");
+  }
+
+  std::vector<Format> formats() {
+    const auto ply_count = [](std::string t) { return replace_all(t, "vertex 5", "vertex 1000000000"); };
+    const auto pcd_count = [](std::string t) {
+      return replace_all(replace_all(t, "WIDTH 5", "WIDTH 1000000000"), "POINTS 5", "POINTS 1000000000");
+    };
+    const auto first_line = [](std::string t) { return t.replace(0, 1, "1000000000"); };
+    return {
+        {"rows.xyz", [](const Points& p) { return rows(p); }, true},
+        {"rows.csv", [](const Points& p) { return "x,y,z\n" + rows(p, "", "", ","); }, true},
+        {"rows.pts", [](const Points& p) { return std::to_string(p.size()) + "\n" + rows(p); }, true, "", true, true,
+         first_line},
+        {"rows.ptx", ptx, true, "", true, true, first_line},
+        {"text.ply", [](const Points& p) { return ply(p, "ascii", rows(p)); }, true, "", true, true, ply_count},
+        {"text.pcd", [](const Points& p) { return pcd(p, "ascii", rows(p)); }, true, "", true, true, pcd_count},
+        {"text.obj", [](const Points& p) { return "# of a test\n" + rows(p, "v "); }, true},
+        {"text.stl", text_stl, true},
+        {"little.ply", [](const Points& p) { return ply(p, "binary_little_endian", numbers<double>(p)); }, false,
+         "end_header\n", true, true, ply_count},
+        {"big.ply", [](const Points& p) { return ply(p, "binary_big_endian", numbers<double>(p, true)); }, false,
+         "end_header\n", true, true, ply_count},
+        {"binary.pcd", [](const Points& p) { return pcd(p, "binary", numbers<double>(p)); }, false, "DATA binary\n",
+         true, true, pcd_count},
+        {"packed.pcd", compressed_pcd, false, "DATA binary_compressed\n", true, true, pcd_count},
+        {"binary.stl", binary_stl, false, "", true, false, [](std::string b) { return put_count(std::move(b), 80); }},
+        {"scan.e57", [](const Points& p) { return e57(p); }, false, "", true, true,
+         [this](const std::string&) { return e57(five, 1000000000); }},
+        {"scan.las", las, false, "", false, true, [](std::string b) { return put_count(std::move(b), 107); }},
+        {"scan.laz", [this](const Points& p) { return laz(p); }, false, "", false, true,
+         [](std::string b) { return put_count(std::move(b), 107); }},
+    };
+  }
+
+  Cloud read(const std::string& name) {
+    ReadScan::Params params;
+    params.path.path = path(name);
+    params.mesh = ReadScan::MeshUse::vertices;
+    return ReadScan::run({}, params, context).cloud;
+  }
+  /// The message of the Error; "" if the file is read.
+  std::string outcome(const std::string& name) {
+    return error_of([&] { read(name); });
+  }
+  void expect_read(const Format& format, const std::string& bytes, const Points& points) {
+    file(format.name, bytes);
+    Cloud cloud;
+    ASSERT_EQ(error_of([&] { cloud = read(format.name); }), "") << format.name;
+    expect_same(cloud, points);
+  }
+  static void expect_same(const Cloud& cloud, const Points& points) {
+    ASSERT_EQ(cloud.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t a = 0; a < 3; ++a)
+        EXPECT_NEAR(cloud.origin[static_cast<int>(a)] + static_cast<double>(cloud.points[i][static_cast<int>(a)]),
+                    number(points[i][a]), 1e-4);
+  }
+  /// Read, or refused with a message that names the file.
+  void expect_read_or_refused(const std::string& name) {
+    const std::string message = outcome(name);
+    if (!message.empty()) {
+      EXPECT_CONTAINS(message, name);
+    }
+  }
+};
+
+TEST_F(Matrix, LineEndsMarksCapitalsAndBlanks) {
+  const auto upper = [](std::string text) {
+    for (char& c : text) c = static_cast<char>(std::toupper(c));
+    return text;
+  };
+  for (const auto& format : formats()) {
+    if (!format.text && format.end_of_header.empty()) continue;
+    const std::string whole = format.make(five);
+    const std::size_t body =
+        format.text ? whole.size() : whole.find(format.end_of_header) + format.end_of_header.size();
+    const std::string head = whole.substr(0, body), rest = whole.substr(body);
+    expect_read(format, whole, five);
+    const std::string odd[] = {
+        replace_all(head, "\n", "\r\n"),   replace_all(head, "\n", "\r"),          "\xEF\xBB\xBF" + head, upper(head),
+        replace_all(head, "\n", " \t \n"), replace_all(upper(head), "\n", " \r\n")};
+    for (std::size_t i = 0; i < std::size(odd); ++i) {
+      SCOPED_TRACE(format.name + ", oddity " + std::to_string(i));
+      expect_read(format, odd[i] + rest, five);
+    }
+  }
+  EXPECT_TRUE(host->warnings.empty()) << warnings();
+}
+
+TEST_F(Matrix, CutShortAndOneBitOfEachByteFlipped) {
+  for (const auto& format : formats()) {
+    const std::string whole = format.make(five);
+    for (std::size_t length = 0; length < whole.size(); length += 64) {
+      SCOPED_TRACE(format.name + " cut to " + std::to_string(length));
+      file(format.name, whole.substr(0, length));
+      expect_read_or_refused(format.name);
+      if (!format.text) {
+        EXPECT_NE(outcome(format.name), "");
+      }
+    }
+    // The pages of an E57 file have checksums: each finds what was flipped, so some bytes of each are enough.
+    const std::size_t step = whole.size() > 1500 ? 7 : 1;
+    for (std::size_t at = 0; at < whole.size(); at += step) {
+      SCOPED_TRACE(format.name + " flipped at " + std::to_string(at));
+      std::string bytes = whole;
+      bytes[at] = static_cast<char>(bytes[at] ^ (1 << at % 8));
+      file(format.name, bytes);
+      expect_read_or_refused(format.name);
+    }
+  }
+}
+
+TEST_F(Matrix, NoPointAndOnePointAreErrorsThatSaySo) {
+  for (const auto& format : formats()) {
+    for (std::size_t count = 0; count < 2; ++count) {
+      SCOPED_TRACE(format.name + " of " + std::to_string(count) + " points");
+      file(format.name, format.make({five.begin(), five.begin() + static_cast<std::ptrdiff_t>(count)}));
+      const std::string message = outcome(format.name);
+      EXPECT_CONTAINS(message, format.name);
+      EXPECT_TRUE(message.find("point") != std::string::npos || message.find("empty") != std::string::npos) << message;
+    }
+  }
+}
+
+TEST_F(Matrix, NumbersThatAreNotFiniteAreDroppedAndCounted) {
+  for (const auto& format : formats()) {
+    if (!format.any_number) continue;
+    for (const std::string odd : {"nan", "inf", "-inf", "1e300"}) {
+      SCOPED_TRACE(format.name + " with " + odd);
+      host->warnings.clear();
+      Points points = five, left = five;
+      points[3][1] = odd;
+      left.erase(left.begin() + 3);
+      expect_read(format, format.make(points), left);
+      EXPECT_TRUE(warned("1 of 5 points dropped")) << warnings();
+    }
+  }
+}
+
+TEST_F(Matrix, CoordinatesOfAMapKeepTheirMillimetres) {
+  Points points = five;
+  for (auto& p : points) {
+    p[0] = "500000" + p[0].substr(1);
+    p[1] = "5400000" + p[1].substr(1);
+  }
+  for (const auto& format : formats()) {
+    SCOPED_TRACE(format.name);
+    host->warnings.clear();
+    file(format.name, format.make(points));
+    const Cloud cloud = read(format.name);
+    if (format.keeps_utm) {
+      expect_same(cloud, points);
+    } else {
+      EXPECT_TRUE(warned("as float32 is so far from zero: what was finer is lost")) << warnings();
+    }
+  }
+}
+
+TEST_F(Matrix, PointsThatAreDeclaredButNotThereCostNothing) {
+  const auto peak = [] {
+    struct rusage usage {};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;  // kilobytes
+  };
+  for (const auto& format : formats()) {
+    if (!format.declare) continue;
+    SCOPED_TRACE(format.name);
+    file(format.name, format.declare(format.make(five)));
+    const auto before = peak();
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_CONTAINS(outcome(format.name), format.name);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
+    EXPECT_LT(peak() - before, 50000);
+  }
+}
+
+TEST_F(Matrix, APipeGivesWhatAFileGives) {
+  for (const auto& format : formats()) {
+    SCOPED_TRACE(format.name);
+    const std::string bytes = format.make(five), place = path(format.name);
+    std::filesystem::remove(place);
+    ASSERT_EQ(::mkfifo(place.c_str(), 0600), 0);
+    std::thread feed([&] { std::ofstream(place, std::ios::binary) << bytes; });
+    Cloud cloud;
+    const std::string message = error_of([&] { cloud = read(format.name); });
+    feed.join();
+    EXPECT_EQ(message, "");
+    expect_same(cloud, five);
+    std::filesystem::remove(place);
+  }
+}
+
+TEST_F(Matrix, WritersThatCannotWriteSaySoAndLeaveNothing) {
+  Cloud cloud;
+  PlanePrimitive plane;
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < 4000; ++i) {
+    cloud.points.emplace_back(static_cast<float>(i % 61), static_cast<float>(i % 67), static_cast<float>(i % 71));
+    plane.inliers.push_back(i);
+    mesh.vertices.push_back(cloud.points.back().cast<double>());
+    if (i > 1) mesh.triangles.push_back({i - 2, i - 1, i});
+  }
+  const PlanePrimitives planes{std::make_shared<const Cloud>(cloud), {plane}};
+  std::vector<std::pair<std::string, std::function<void(const std::string&)>>> writers;
+  for (const std::string end : {".ply", ".pcd", ".e57", ".las", ".laz", ".xyz", ".txt", ".csv"})
+    for (const bool binary : {true, false})
+      writers.emplace_back(end, [&, binary](const std::string& to) {
+        WriteCloud::run({input(cloud)}, {{to}, binary}, context);
+      });
+  for (const std::string end : {".ply", ".obj", ".stl", ".glb"})
+    writers.emplace_back(end, [&](const std::string& to) { WriteMesh::run({input(mesh)}, {{to}, true}, context); });
+  for (const std::string end : {".vg", ".bvg"})
+    writers.emplace_back(end, [&](const std::string& to) { WriteVg::run({input(planes)}, {{to}}, context); });
+  file("no_folder", "a file");
+  const auto left = [&] {
+    return std::distance(std::filesystem::recursive_directory_iterator(folder),
+                         std::filesystem::recursive_directory_iterator());
+  };
+  const auto before = left();
+  for (const auto& [end, write] : writers) {
+    SCOPED_TRACE(end);
+    EXPECT_CONTAINS(error_of([&, &write = write, &end = end] { write("no_folder/it" + end); }), "no_folder");
+    // No file may be larger than 1000 bytes: the system refuses as it does where a disk is full.
+    struct rlimit whole {};
+    ::getrlimit(RLIMIT_FSIZE, &whole);
+    const struct rlimit little { 1000, whole.rlim_max };
+    ::setrlimit(RLIMIT_FSIZE, &little);
+    const std::string message = error_of([&, &write = write, &end = end] { write("it" + end); });
+    ::setrlimit(RLIMIT_FSIZE, &whole);
+    EXPECT_CONTAINS(message, "it" + end);
+    EXPECT_EQ(left(), before);
+  }
+}
+
+}  // namespace
+}  // namespace atrium::io::matrix_test
