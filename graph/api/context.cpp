@@ -104,7 +104,13 @@ AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)
   temporary_ = target_.parent_path() / unfinished_file_name(target_.filename().string());
   const int descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor >= 0) file_ = ::fdopen(descriptor, "wb");
-  if (file_ == nullptr) throw Error("cannot write " + target_.string() + ": " + std::strerror(errno));
+  if (file_ != nullptr) return;
+  const int reason = errno;
+  if (descriptor >= 0) {
+    ::close(descriptor);
+    ::unlink(temporary_.c_str());
+  }
+  throw Error("cannot write " + target_.string() + ": " + std::strerror(reason));
 }
 
 AtomicFile::~AtomicFile() {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <fstream>
 
+#include "graph/api/error.hpp"
+
 namespace atrium {
 
 namespace fs = std::filesystem;
@@ -29,6 +31,7 @@ std::vector<fs::path> plugin_data_files(const fs::path& library) {
     for (const fs::recursive_directory_iterator end; !ignored && it != end; it.increment(ignored))
       if (std::error_code unknown; it->is_regular_file(unknown)) files.push_back(it->path());
   }
+  if (list.bad()) throw Error("cannot read the list of the files that belong to " + library.string());
   std::sort(files.begin(), files.end());
   return files;
 }

@@ -45,6 +45,7 @@ struct Prepared {
   std::vector<char*> arguments;
   int input = -1, log = -1, messages = -1, events = -1;
   rlim_t address_space = RLIM_INFINITY;
+  bool ignores_interrupt = false;  ///< SIGINT, as the parent of this process had it
 };
 
 void send(int to, Message message) {
@@ -57,7 +58,8 @@ void send(int to, Message message) {
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
-  for (const int signal : {SIGPIPE, SIGCHLD, SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);
+  for (const int signal : {SIGPIPE, SIGCHLD, SIGTERM, SIGXFSZ}) ::signal(signal, SIG_DFL);
+  if (!p.ignores_interrupt) ::signal(SIGINT, SIG_DFL);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != supervisor) ::_exit(127);
   const rlimit no_core{0, 0};
@@ -85,12 +87,13 @@ void send(int to, Message message) {
   const pid_t self = ::getpid();
   const pid_t program = ::fork();
   if (program == 0) become(p, self);
+  const int refusal = errno;
   // Other ends of other pipes, and those of this one: nobody shall wait for them.
   const long most = std::min(::sysconf(_SC_OPEN_MAX), 65536L);
   for (int i = 0; i < most; ++i)
     if (i != p.messages) ::close(i);
   if (program < 0) {
-    send(p.messages, {Message::failed, errno});
+    send(p.messages, {Message::failed, refusal});
     ::_exit(1);
   }
   send(p.messages, {Message::started, program});
@@ -201,9 +204,16 @@ int run_program(const std::vector<std::string>& arguments) {
   list.push_back(nullptr);
   const std::string program = program_file(words.at(0)).string();
   pid_t process = -1;
-  if (const int problem = ::posix_spawn(&process, program.c_str(), nullptr, nullptr, list.data(), environ);
-      problem != 0)
-    throw Error(fmt::format("cannot start {}: {}", program, reason(problem)));
+  posix_spawnattr_t attributes;
+  sigset_t usual;  // what this program ignores is not for others
+  ::sigemptyset(&usual);
+  for (const int signal : {SIGPIPE, SIGXFSZ}) ::sigaddset(&usual, signal);
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setsigdefault(&attributes, &usual);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  const int problem = ::posix_spawn(&process, program.c_str(), nullptr, &attributes, list.data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
+  if (problem != 0) throw Error(fmt::format("cannot start {}: {}", program, reason(problem)));
   int status = 0;
   while (::waitpid(process, &status, 0) < 0)
     if (errno != EINTR) throw Error(fmt::format("cannot wait for {}: {}", program, reason(errno)));
@@ -219,6 +229,9 @@ SupervisedProcess::SupervisedProcess(const Start& start) {
   p.input = out_of_the_way(::open("/dev/null", O_RDONLY | O_CLOEXEC));
   bool ready = p.input >= 0 && make_pipe(log_, p.log) && make_pipe(messages_, p.messages);
   if (start.tells) ready = ready && make_pipe(events_, p.events);
+  struct sigaction interrupt {};
+  ::sigaction(SIGINT, nullptr, &interrupt);
+  p.ignores_interrupt = interrupt.sa_handler == SIG_IGN;
   const pid_t parent = ::getpid();
   if (ready) supervisor_ = ::fork();
   if (supervisor_ == 0) supervise(p, parent);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <system_error>
 
 #include "graph/api/clocks.hpp"
 #include "graph/api/context.hpp"
@@ -209,7 +210,7 @@ std::optional<std::string> Cache::keep_file(const fs::path& file) {
     if (copy_hashed(written, target, hash) != hash) return std::nullopt;  // it was changed meanwhile
     added(written.size());
     return hash;
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     give_up(error.what());
     return std::nullopt;
   }
@@ -223,7 +224,7 @@ void Cache::keep(const CacheRecord& record) {
     make_room_for(target);
     write_bytes(target, text.data(), text.size());
     added(text.size());
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     give_up(error.what());
   }
 }
@@ -241,14 +242,18 @@ bool Cache::keep_value(const FlatType& type, std::shared_ptr<const void> data, c
     touch(file);
     return true;
   }
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
   const double writing = seconds_per_file + static_cast<double>(waiting_bytes_ + bytes) / rate_;
   const bool too_much = bytes > options_.most_bytes / 2 || waiting_bytes_ + bytes > most_waiting;
   if (broken_ || too_much || (!options_.keep_all && writing > cost)) return false;
   waiting_bytes_ += bytes;
   jobs_.push_back({&type, std::move(data), hash, bytes});
-  if (!writer_.joinable()) writer_ = std::thread([this] { work(); });
-  wake_.notify_one();
+  try {
+    if (!writer_.joinable()) writer_ = std::thread([this] { work(); });
+    wake_.notify_one();
+  } catch (const std::system_error&) {  // no thread to be had: this one writes
+    while (!jobs_.empty()) write_next(lock);
+  }
   return true;
 }
 
@@ -257,21 +262,26 @@ void Cache::work() {
   while (true) {
     wake_.wait(lock, [this] { return ending_ || !jobs_.empty(); });
     if (jobs_.empty()) return;
-    busy_ = true;
-    Job job = std::move(jobs_.front());
-    jobs_.pop_front();
-    const bool useful = !broken_;
-    lock.unlock();
-    const double start = wall_seconds();
-    const std::uint64_t written = useful ? write(job) : 0;
-    const double took = wall_seconds() - start;
-    job.data.reset();
-    lock.lock();
-    if (written >= measurable) rate_ = 0.5 * (rate_ + static_cast<double>(written) / (took + 1e-6));
-    waiting_bytes_ -= job.bytes;
-    busy_ = false;
-    idle_.notify_all();
+    write_next(lock);
   }
+}
+
+/// The first of the values that wait; without the lock meanwhile.
+void Cache::write_next(std::unique_lock<std::mutex>& lock) {
+  ++busy_;
+  Job job = std::move(jobs_.front());
+  jobs_.pop_front();
+  const bool useful = !broken_;
+  lock.unlock();
+  const double start = wall_seconds();
+  const std::uint64_t written = useful ? write(job) : 0;
+  const double took = wall_seconds() - start;
+  job.data.reset();
+  lock.lock();
+  if (written >= measurable) rate_ = 0.5 * (rate_ + static_cast<double>(written) / (took + 1e-6));
+  waiting_bytes_ -= job.bytes;
+  --busy_;
+  idle_.notify_all();
 }
 
 /// The value, then what it shares with others: how many bytes were written. A value without its parts is found out when
@@ -342,7 +352,7 @@ void Cache::collect() {
 void Cache::finish() {
   {
     std::unique_lock lock(mutex_);
-    idle_.wait(lock, [this] { return jobs_.empty() && !busy_; });
+    idle_.wait(lock, [this] { return jobs_.empty() && busy_ == 0; });
     if (new_bytes_ == 0) return;
     // Looking at every file takes a while in a large cache: not after each small run.
     const bool little = new_bytes_ < options_.most_bytes / 1000;

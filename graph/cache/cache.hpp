@@ -81,6 +81,7 @@ class Cache {
     std::uint64_t bytes;
   };
   void work();
+  void write_next(std::unique_lock<std::mutex>& lock);
   std::uint64_t write(const Job& job);
   std::uint64_t write_part(const FlatReference& part);
   void make_room_for(const std::filesystem::path& file);
@@ -107,7 +108,8 @@ class Cache {
 
   std::condition_variable wake_, idle_;
   std::deque<Job> jobs_;
-  bool busy_ = false, ending_ = false;
+  bool ending_ = false;
+  std::size_t busy_ = 0;  ///< threads that write
   std::uint64_t waiting_bytes_ = 0, new_bytes_ = 0;
   double rate_;  ///< bytes per second that values are written with
   std::thread writer_;

@@ -1,17 +1,30 @@
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <filesystem>
+#include <iostream>
+#include <new>
 #include <string>
 #include <vector>
 
+#include "graph/api/standard_streams.hpp"
 #include "graph/api/suggest.hpp"
 #include "graph/cli/command_table.hpp"
 #include "graph/cli/verbs.hpp"
 #include "graph/pipeline/registry.hpp"
 
 namespace atrium::cli {
+namespace {
+
+bool stdout_was_open = true;
+
+}  // namespace
+
+bool has_stdout() { return stdout_was_open; }
 
 void print_error(const std::string& message, const std::string& help) {
   std::fprintf(stderr, "atrium: error: %s\n", message.c_str());
@@ -21,6 +34,33 @@ void print_error(const std::string& message, const std::string& help) {
 }  // namespace atrium::cli
 
 namespace {
+
+constexpr const char* help_for_memory =
+    "give it fewer points or variants (a coarser voxel grid, a crop), fewer threads (-j 1), or more memory";
+
+// What no handler has caught, as in a destructor. Without memory nothing better can be done; anything else is a fault
+// of the program, which a core file may explain.
+[[noreturn]] void on_terminate() noexcept {
+  try {
+    if (const auto error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "atrium: error: out of memory\n  help: %s\n", help_for_memory);
+    std::_Exit(atrium::cli::failed);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "atrium: error: %s (this is a fault of the program)\n", error.what());
+  } catch (...) {
+    std::fprintf(stderr, "atrium: error: something that is no std::exception (this is a fault of the program)\n");
+  }
+  std::abort();
+}
+
+// What the system gives to a process, as the program needs it. Before any file is opened.
+void secure_process() {
+  atrium::cli::stdout_was_open = atrium::secure_standard_streams();
+  std::set_terminate(on_terminate);
+  std::signal(SIGCHLD, SIG_DFL);  // if it is ignored, a child's end is not told
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that gets too large (ulimit -f) is an error of writing then
+}
 
 // What was not understood, and whose help says what would be.
 int report_usage(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& words) {
@@ -72,11 +112,18 @@ std::string text_of(const std::filesystem::filesystem_error& error) {
   return error.path1().string() + ": " + error.code().message();
 }
 
+// The exit code, or that of a failure if what was printed has not reached stdout.
+int flushed(int code) {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
+  return report("cannot write to stdout: " + std::string(std::strerror(errno)), {}, atrium::cli::failed);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   namespace cli = atrium::cli;
-  std::signal(SIGCHLD, SIG_DFL);  // if it is ignored, a child's end is not told
+  secure_process();
   CLI::App app("Atrium: raw indoor point clouds to light planar models, as a graph of nodes.", "atrium");
   app.require_subcommand(1);
   app.footer(
@@ -100,7 +147,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help
-    return app.exit(success);
+    return flushed(app.exit(success));
   } catch (const CLI::ParseError& error) {
     return report_usage(app, error, {argv + 1, argv + argc});
   } catch (const atrium::PluginError& error) {
@@ -109,9 +156,10 @@ int main(int argc, char** argv) {
     return report(error.what(), error.help(), cli::failed);
   } catch (const std::filesystem::filesystem_error& error) {
     return report(text_of(error), "go to a folder that is there, or give absolute paths", cli::failed);
+  } catch (const std::bad_alloc&) {
+    return report("out of memory", help_for_memory, cli::failed);
   } catch (const std::exception& error) {
     return report(error.what(), {}, cli::failed);
   }
-  if (std::fflush(stdout) != 0) return report("cannot write to stdout", {}, cli::failed);
-  return exit_code;
+  return flushed(exit_code);
 }

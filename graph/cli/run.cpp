@@ -81,7 +81,7 @@ int run_file(const RunArguments& options) {
   if (!options.quiet) print_run_summary(result, run_options.out);
   if (options.json)
     fmt::print("{}", results_json(loaded.pipeline, result, fs::absolute(run_options.out)));
-  else
+  else if (has_stdout())
     fmt::print("{}", results_table(loaded.pipeline, result));
   if (!result.failures.empty()) return failed;
   return result.cancelled ? signals.exit_code() : ok;

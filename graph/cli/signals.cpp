@@ -42,8 +42,12 @@ CancelOnSignal::CancelOnSignal() {
   cancel = false;
   first_signal = 0;
   install(handle);
+  on_pipe_ = std::signal(SIGPIPE, SIG_IGN);
 }
-CancelOnSignal::~CancelOnSignal() { install(SIG_DFL); }
+CancelOnSignal::~CancelOnSignal() {
+  install(SIG_DFL);
+  std::signal(SIGPIPE, on_pipe_);
+}
 
 const std::atomic<bool>* CancelOnSignal::flag() const { return &cancel; }
 int CancelOnSignal::exit_code() const { return 128 + first_signal.load(); }

@@ -37,7 +37,7 @@ LoadedSweep load_sweep(const std::string& file, const std::vector<Override>& set
 int print_sweep(const SweepFile& sweep, const SweepPlan& plan, const SweepResult& result, bool json) {
   if (json) {
     fmt::print("{}\n", json_text(table_json(sweep, plan, result.variants), 2));
-  } else {
+  } else if (has_stdout()) {
     fmt::print("{}", as_text(short_table(sweep, plan, result.variants)));
   }
   std::vector<std::string> unknown;

@@ -2,9 +2,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include <fstream>
-#include <sstream>
-
+#include "graph/api/files.hpp"
+#include "graph/api/standard_streams.hpp"
 #include "graph/cache/build_ids.hpp"
 #include "graph/cli/signals.hpp"
 #include "graph/cli/verbs.hpp"
@@ -27,13 +26,6 @@ struct WorkArguments {
   CacheChoice cache;
 };
 
-std::string read_text(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 /// A file in the work folder, or ids of variants.
 WorkerTask task_of(const fs::path& folder, const std::vector<std::string>& names) {
   const fs::path file = folder / farm_folder / names.front();
@@ -44,6 +36,7 @@ WorkerTask task_of(const fs::path& folder, const std::vector<std::string>& names
 }
 
 int work_here(const WorkArguments& options) {
+  keep_occupied(WorkerProcess::events_file, O_WRONLY);       // before any file is opened
   ::fcntl(WorkerProcess::events_file, F_SETFD, FD_CLOEXEC);  // not for programs that nodes start
   if (options.threads > 0)
     ::setenv("OMP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)

@@ -51,6 +51,10 @@ std::vector<std::string> worker_arguments(const CacheChoice& choice, const Cache
 /// The path of this program.
 std::string own_program();
 
+/// Whether there was a standard output when the program began. Where there was none (a daemon), what a command prints
+/// for a person beside its other results is left out; what is asked for as JSON cannot be written.
+bool has_stdout();
+
 /// Prints on stderr. That it cannot be printed (closed, full) is no reason to end otherwise than by what was done.
 template <class... Arguments>
 void say(fmt::format_string<Arguments...> text, Arguments&&... arguments) {

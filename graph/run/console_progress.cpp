@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <system_error>
 
 #include "graph/api/clocks.hpp"
 
@@ -60,7 +61,11 @@ ConsoleOptions console_options(std::FILE* stream, bool quiet) {
 
 ConsoleProgress::ConsoleProgress(ConsoleOptions options) : options_(options), start_(wall_seconds()) {
   if (options_.tick <= 0) options_.tick = options_.live ? 0.1 : 10;
-  if (!options_.quiet) ticker_ = std::thread([this] { tick(); });
+  if (options_.quiet) return;
+  try {
+    ticker_ = std::thread([this] { tick(); });
+  } catch (const std::system_error&) {  // no thread to be had: what is still running is not told
+  }
 }
 
 ConsoleProgress::~ConsoleProgress() {
@@ -122,10 +127,11 @@ void ConsoleProgress::reopened(const std::string& /*node*/) {
 void ConsoleProgress::message(const std::string& node, std::string_view text, bool warning) {
   if (options_.quiet) return;
   const std::lock_guard lock(mutex_);
+  const std::string said = node.empty() ? std::string(text) : fmt::format("{}: {}", node, text);
   if (warning) {
-    if (++warnings_[std::string(text)] == 1) line(fmt::format("{} {}: {}", painted("warning:", "33"), node, text));
+    if (++warnings_[std::string(text)] == 1) line(fmt::format("{} {}", painted("warning:", "33"), said));
   } else
-    line(fmt::format("{}: {}", node, text));
+    line(said);
 }
 
 std::string ConsoleProgress::painted(std::string_view text, std::string_view colour) const {

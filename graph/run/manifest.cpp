@@ -119,13 +119,15 @@ std::string manifest_json(const Pipeline& pipeline, const RunResult& result, con
   return manifest_text(json);
 }
 
-std::string unfinished_manifest(const Pipeline& pipeline, const std::string& started) {
+std::string unfinished_manifest(const Pipeline& pipeline, const std::string& started,
+                                const std::vector<std::string>& to_remove) {
   auto manifest = head(pipeline, started, "running");
   manifest["planned"] = nlohmann::json::array();
   for (const std::size_t n : all_nodes(pipeline))
     for (std::size_t i = 0; i < pipeline[n].params.size(); ++i)
       if (pipeline[n].type->params[i].kind == ParamKind::output_path)
         manifest["planned"].push_back(std::get<std::string>(pipeline[n].params[i]));
+  for (const auto& path : to_remove) manifest["planned"].push_back(path);
   return manifest_text(manifest);
 }
 

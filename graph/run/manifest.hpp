@@ -1,6 +1,7 @@
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "graph/run/runner.hpp"
 
@@ -10,8 +11,10 @@ namespace atrium {
 /// warnings and files. Keys are always in the same order. Times and memory are in seconds and bytes.
 std::string manifest_json(const Pipeline& pipeline, const RunResult& result, const std::string& started);
 
-/// The manifest of a run that is under way ("status": "running"): what a killed run leaves.
-std::string unfinished_manifest(const Pipeline& pipeline, const std::string& started);
+/// The manifest of a run that is under way ("status": "running"): what a killed run leaves. It lists as planned what
+/// the run is going to write, and what it is about to remove of an earlier one.
+std::string unfinished_manifest(const Pipeline& pipeline, const std::string& started,
+                                const std::vector<std::string>& to_remove);
 
 /// What the cache had of a node: {"result": "hit" or "miss", "key": …, "why": …, …}.
 nlohmann::ordered_json cache_json(const CacheUse& use);

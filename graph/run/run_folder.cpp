@@ -89,37 +89,43 @@ RunFolder::RunFolder(fs::path folder, const Pipeline& pipeline)
   if (!lock_->held())
     throw FolderError(fmt::format("another run is writing into {} ({})", folder_.string(), lock_->holder()),
                       "choose another folder with --out");
-  remove_earlier_run();
-  write_file(folder_ / "manifest.json", unfinished_manifest(pipeline_, started_));
+  refuse_what_is_no_run(folder_);
+  const auto earlier = files_of_earlier_run();
+  write_file(folder_ / "manifest.json", unfinished_manifest(pipeline_, started_, earlier));
+  std::vector<fs::path> to_remove;
+  to_remove.reserve(earlier.size());
+  for (const auto& path : earlier) to_remove.push_back(place_inside(folder_, path).value_or(fs::path()));
+  std::error_code ignored;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_, ignored))
+    if (!name_of_unfinished(entry.path().filename().string()).empty()) to_remove.push_back(entry.path());
+  remove_unless_read(to_remove);
+  fs::remove(folder_ / written_journal, ignored);
+  fs::remove(folder_ / "trace.json", ignored);
   write_file(folder_ / "resolved.yaml", resolved_yaml(pipeline_));
 }
 
-void RunFolder::remove_earlier_run() {
-  refuse_what_is_no_run(folder_);
-  if (holds_only_unfinished(folder_)) return;
+/// As the folder's manifest and journal list them.
+std::vector<std::string> RunFolder::files_of_earlier_run() const {
+  std::vector<std::string> files;
+  if (holds_only_unfinished(folder_)) return files;
   const auto manifest = read_manifest(folder_);
-  const auto needed = files_read(pipeline_);
-  const auto place = [&](const std::string& listed) { return place_inside(folder_, listed).value_or(fs::path()); };
-  std::error_code ignored;
-  const auto remove_unless_read = [&](const fs::path& file) {
-    if (fs::is_regular_file(file, ignored) && !needed.contains(without_links(file))) fs::remove(file, ignored);
-  };
-  for (const auto& [path, bytes] : written_by(manifest)) {
-    const fs::path file = place(path);
-    if (fs::file_size(file, ignored) == bytes) remove_unless_read(file);
-  }
-  // A run that was killed lists what it was going to write and what it has written, and may have left unfinished files.
+  std::error_code missing;
+  for (const auto& [path, bytes] : written_by(manifest))
+    if (fs::file_size(place_inside(folder_, path).value_or(fs::path()), missing) == bytes) files.push_back(path);
+  // A run that was killed lists what it was going to write and what it has written.
   if (const auto planned = manifest.find("planned"); planned != manifest.end() && planned->is_array())
     for (const auto& path : *planned)
-      if (path.is_string()) remove_unless_read(place(path.get<std::string>()));
+      if (path.is_string()) files.push_back(path.get<std::string>());
   std::ifstream journal(folder_ / written_journal);
-  for (std::string path; std::getline(journal, path);) remove_unless_read(place(path));
-  fs::remove(folder_ / written_journal, ignored);
-  std::vector<fs::path> unfinished;
-  for (const auto& entry : fs::recursive_directory_iterator(folder_, ignored))
-    if (!name_of_unfinished(entry.path().filename().string()).empty()) unfinished.push_back(entry.path());
-  for (const auto& file : unfinished) remove_unless_read(file);
-  fs::remove(folder_ / "trace.json", ignored);
+  for (std::string path; std::getline(journal, path);) files.push_back(path);
+  return files;
+}
+
+void RunFolder::remove_unless_read(const std::vector<fs::path>& files) const {
+  const auto needed = files_read(pipeline_);
+  std::error_code ignored;
+  for (const auto& file : files)
+    if (fs::is_regular_file(file, ignored) && !needed.contains(without_links(file))) fs::remove(file, ignored);
 }
 
 void RunFolder::finish(const RunResult& result) {

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "graph/api/folder_lock.hpp"
 #include "graph/run/runner.hpp"
@@ -16,7 +17,8 @@ inline constexpr std::string_view sweep_mark = "sweep.json";
 
 /// The folder of one run. It is refused if it holds anything but an earlier run. Of that run the files are removed
 /// first: those that its manifest lists and that still have the size listed; if it was killed, those that it planned to
-/// write; and unfinished ones (AtomicFile). A file that this pipeline reads stays, and nothing outside of the folder is
+/// write; and unfinished ones (AtomicFile). Before that its manifest is replaced: one that says that a run is done
+/// stands beside all of its files, always. A file that this pipeline reads stays, and nothing outside of the folder is
 /// touched, whatever the manifest lists. The folder of a sweep is refused too. Locked against a second run at the same
 /// time (FolderLock).
 class RunFolder {
@@ -30,7 +32,8 @@ class RunFolder {
   void finish(const RunResult& result);
 
  private:
-  void remove_earlier_run();
+  std::vector<std::string> files_of_earlier_run() const;
+  void remove_unless_read(const std::vector<std::filesystem::path>& files) const;
 
   std::filesystem::path folder_;
   const Pipeline& pipeline_;

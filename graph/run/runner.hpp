@@ -125,6 +125,7 @@ class ProgressSink {
   virtual void described(const NodeRecord& /*node*/) {}
   /// Of a node that was finished: what was told of it holds no longer, it will be finished once more.
   virtual void reopened(const std::string& /*node*/) {}
+  /// `node` is empty if it is of the run as a whole.
   virtual void message(const std::string& /*node*/, std::string_view /*text*/, bool /*warning*/) {}
 };
 

@@ -1,6 +1,5 @@
 #include "graph/run/scheduler.hpp"
 
-#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
@@ -11,6 +10,7 @@
 #include "graph/api/clocks.hpp"
 #include "graph/api/helper_memory.hpp"
 #include "graph/run/node_host.hpp"
+#include "graph/run/run_threads.hpp"
 
 namespace atrium {
 namespace {
@@ -18,6 +18,7 @@ namespace {
 // Nodes shorter than this share the last reading of the process's peak memory: a reading takes about as long as a small
 // node.
 constexpr double peak_reading_interval = 1e-3;
+constexpr const char* help_for_memory = "give it fewer points (a coarser voxel grid, a crop), or run with -j 1";
 
 }  // namespace
 
@@ -55,18 +56,17 @@ void Scheduler::prepare() {
 }
 
 RunResult Scheduler::run() {
-  const int threads = options_.threads > 0 ? options_.threads : tbb::this_task_arena::max_concurrency();
-  result_.threads = threads;
+  RunThreads threads(options_.threads > 0 ? options_.threads : tbb::this_task_arena::max_concurrency());
+  result_.threads = threads.number();
+  if (!threads.shortage().empty()) progress_.message({}, threads.shortage(), true);
   start_ = wall_seconds();
   peak_memory_ = peak_memory();
   progress_.planned(states_.size());
   if (cache_ != nullptr) note_builds();
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads, 1);
-  if (cache_ != nullptr) arena.execute([this] { hash_inputs(); });
+  if (cache_ != nullptr) threads.execute([this] { hash_inputs(); });
   do {
     begin_round();
-    arena.execute([&] {
+    threads.execute([&] {
       tbb::task_group group;
       spawn_ = [&](std::size_t tasks) {
         for (std::size_t i = 0; i < tasks; ++i) group.run([this] { step(); });
@@ -176,12 +176,11 @@ void Scheduler::execute(std::size_t n) {
   progress_.started(record.node);
   std::vector<Value> outputs;
   std::optional<std::uint64_t> growth;
-  const bool ok = call_watched(n, std::move(inputs), outputs, growth);
-  if (!ok) outputs.clear();
-  if (ok) {
-    note_facts(n, outputs);
+  const bool ok = call_watched(n, std::move(inputs), outputs, growth) && note_facts(n, outputs);
+  if (ok)
     record.status = NodeStatus::ok;
-  }
+  else
+    outputs.clear();
   if (cache_ == nullptr) {  // what follows need not wait for hashes
     tell(n);
     settle(n, outputs);
@@ -245,7 +244,7 @@ bool Scheduler::call(std::size_t n, const Inputs& inputs, std::vector<Value>& ou
   } catch (const Error& error) {
     fail(n, error.what(), error.help());
   } catch (const std::bad_alloc&) {
-    fail(n, "out of memory", "give it fewer points (a coarser voxel grid, a crop), or run with -j 1");
+    fail(n, "out of memory", help_for_memory);
   } catch (const std::exception& error) {
     fail(n, error.what(), "");
   } catch (...) {
@@ -270,7 +269,8 @@ void Scheduler::fail(std::size_t n, std::string message, std::string help) {
   record.help = std::move(help);
 }
 
-void Scheduler::note_facts(std::size_t n, const std::vector<Value>& outputs) {
+/// False: there was no memory for it, the node has failed.
+bool Scheduler::note_facts(std::size_t n, const std::vector<Value>& outputs) {
   NodeRecord& record = result_.nodes[n];
   record.facts.assign(outputs.size(), {});
   for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -278,12 +278,16 @@ void Scheduler::note_facts(std::size_t n, const std::vector<Value>& outputs) {
     const std::string& port = pipeline_[n].type->outputs[i].name;
     try {
       record.facts[i] = outputs[i].facts(outputs[i].data.get());
+    } catch (const std::bad_alloc&) {
+      fail(n, "out of memory", help_for_memory);
+      return false;
     } catch (const std::exception& error) {
       record.warnings.push_back("output '" + port + "' could not be summed up: " + error.what());
     } catch (...) {
       record.warnings.push_back("output '" + port + "' could not be summed up");
     }
   }
+  return true;
 }
 
 void Scheduler::describe(std::size_t n, const std::vector<Value>& outputs) {

@@ -73,7 +73,7 @@ class Scheduler {
   bool call(std::size_t n, const Inputs& inputs, std::vector<Value>& outputs);
   void fail(std::size_t n, std::string message, std::string help);
   void tell(std::size_t n);
-  void note_facts(std::size_t n, const std::vector<Value>& outputs);
+  bool note_facts(std::size_t n, const std::vector<Value>& outputs);
   void describe(std::size_t n, const std::vector<Value>& outputs);
   void finish(std::size_t n, const std::vector<Value>& outputs);
   void settle(std::size_t n, const std::vector<Value>& outputs);

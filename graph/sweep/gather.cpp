@@ -6,7 +6,9 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "graph/api/files.hpp"
 #include "graph/api/json_text.hpp"
 #include "graph/run/run_folder.hpp"
 #include "graph/sweep/isolated_run.hpp"
@@ -40,6 +42,15 @@ fs::file_time_type now_in(const fs::path& folder) {
   return error ? fs::file_time_type::clock::now() : time;
 }
 
+/// None if the file is not there. Throws Error if it cannot be read.
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::vector<std::string> lines;
+  if (!fs::exists(file)) return lines;
+  std::istringstream text(read_text(file));
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
 class Gatherer {
  public:
   Gatherer(const fs::path& out, const Submission& submission, const SweepPlan& plan)
@@ -53,8 +64,7 @@ class Gatherer {
     for (std::size_t t = 1; t <= submission_.shared; ++t) read(fmt::format("shared-{}", t), t, joined);
     for (std::size_t t = 1; t <= submission_.shards; ++t) {
       const Shard shard = read(fmt::format("shard-{}", t), t, joined);
-      std::ifstream file(work_ / shard.name);
-      for (std::string line; std::getline(file, line);) shard_of_[line] = shard;
+      for (const auto& line : lines_of(work_ / shard.name)) shard_of_[line] = shard;
     }
     std::vector<VariantResult> results;
     for (const auto& variant : plan_.variants) {
@@ -70,10 +80,8 @@ class Gatherer {
   /// Which variants the submission was to run.
   std::vector<bool> submitted() const {
     std::map<std::string, bool> names;
-    for (std::size_t t = 1; t <= submission_.shards; ++t) {
-      std::ifstream file(work_ / fmt::format("shard-{}", t));
-      for (std::string line; std::getline(file, line);) names[line] = true;
-    }
+    for (std::size_t t = 1; t <= submission_.shards; ++t)
+      for (const auto& line : lines_of(work_ / fmt::format("shard-{}", t))) names[line] = true;
     std::vector<bool> result;
     for (const auto& variant : plan_.variants) result.push_back(names.contains(variant.id));
     return result;
@@ -84,8 +92,7 @@ class Gatherer {
     Shard shard;
     shard.name = name;
     const fs::path file = work_ / (name + ".events");
-    std::ifstream stream(file);
-    for (std::string line; std::getline(stream, line);) {
+    for (const auto& line : lines_of(file)) {
       const Json event = read_json(line);
       if (!event.is_object()) continue;  // cut off
       const std::string kind = event.value("e", "");
@@ -108,10 +115,9 @@ class Gatherer {
 
   /// Why a shard ended before it began, from what it printed.
   std::string error_of(const std::string& name) const {
-    std::ifstream log(work_ / (name + ".log"));
     constexpr std::string_view mark = "atrium: error: ";
     std::string error;
-    for (std::string line; std::getline(log, line);)
+    for (const auto& line : lines_of(work_ / (name + ".log")))
       if (line.starts_with(mark)) error = ": " + line.substr(mark.size());
     return error;
   }

@@ -58,6 +58,8 @@ void JoinedRun::hear(const std::string& process, std::size_t lane, const Json& e
     problems_.insert(totals.cache_problems.begin(), totals.cache_problems.end());
   }
   if (!event.contains("node")) return;
+  if (kind == "said" && event.at("node").get<std::string>().empty())  // of the process as a whole
+    return progress_.message({}, event.at("text").get<std::string>(), event.at("warning").get<bool>());
   const auto found = index_.find(event.at("node").get<std::string>());
   if (found == index_.end() || finished_[found->second]) return;
   const std::string& node = pipeline_[found->second].path;

@@ -37,7 +37,7 @@ std::size_t VariantMerger::place(std::size_t n, const Pipeline& pipeline, const 
   PipelineNode merged = node;
   merged.path = variant.id + "/" + node.path;
   merged.folder = std::filesystem::path("variants") / variant.id;
-  const std::size_t placed = add_node(std::move(merged), plan_.merged);
+  const std::size_t placed = add_node(merged, plan_.merged);
   for (const auto& edge : edges_into(n, pipeline))
     boost::add_edge(variant.nodes[boost::source(edge, pipeline)], placed, pipeline[edge], plan_.merged);
   keys_.push_back(std::move(key));

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "graph/api/error.hpp"
+#include "graph/cache/read_file.hpp"
 #include "graph/run/run_folder.hpp"
 #include "graph/sweep/merge.hpp"
 
@@ -157,7 +159,13 @@ void Recorder::add_artefact(const SweepVariant& variant, std::size_t n, const Ar
   fs::remove(target, error);  // of a node that was run again since
   fs::create_directories(target.parent_path(), error);
   fs::create_hard_link(source, target, error);
-  if (error) fs::copy_file(source, target, error);
+  if (!error) return;
+  try {
+    copy_hashed(ReadFile(source), target);
+  } catch (const Error& problem) {
+    result.status = VariantStatus::failed;
+    if (result.message.empty()) result.message = problem.what();
+  }
 }
 
 }  // namespace atrium

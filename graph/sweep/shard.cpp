@@ -5,12 +5,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <system_error>
 
+#include "graph/api/files.hpp"
 #include "graph/api/json_text.hpp"
 #include "graph/sweep/isolated_run.hpp"
 #include "graph/sweep/merge.hpp"
@@ -26,11 +25,9 @@ using Json = nlohmann::ordered_json;
 constexpr double sign_of_life = 5;  // seconds
 
 WorkerTask read_task_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw Error("there is no task " + file.string(), "the sweep was submitted again, or run here, since");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return read_task(text.str(), file.string());
+  if (!fs::exists(file))
+    throw Error("there is no task " + file.string(), "the sweep was submitted again, or run here, since");
+  return read_task(read_text(file), file.string());
 }
 
 /// What is worth joining later: not how far a node is.

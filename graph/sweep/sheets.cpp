@@ -65,8 +65,8 @@ std::vector<std::string> write_sheets(const SweepFile& sweep, const SweepPlan& p
     set(writer, "columns", columns_of(sweep, sheet));
     set(writer, "cell_width", sheet.cell_width);
     writer.folder = std::filesystem::absolute(options.out);
-    const std::size_t from = add_node(std::move(reader), pipeline);
-    connect({from, 0}, add_node(std::move(writer), pipeline), 0, 0, pipeline);
+    const std::size_t from = add_node(reader, pipeline);
+    connect({from, 0}, add_node(writer, pipeline), 0, 0, pipeline);
     RunOptions run_options;
     run_options.threads = options.threads;
     ProgressSink silent;

@@ -5,11 +5,15 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <thread>
 
 #include "graph/api/clocks.hpp"
+#include "graph/api/error.hpp"
 #include "graph/api/json_text.hpp"
 #include "graph/api/suggest.hpp"
 #include "graph/cache/upkeep.hpp"
@@ -52,6 +56,7 @@ struct WorkerPool::Worker {
 WorkerPool::WorkerPool(PoolOptions options, OnEvent on_event, OnEnd on_end)
     : options_(options), on_event_(std::move(on_event)), on_end_(std::move(on_end)) {
   if (options_.threads <= 0) options_.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  most_ = static_cast<std::size_t>(options_.threads);
 }
 
 WorkerPool::~WorkerPool() = default;
@@ -88,8 +93,7 @@ void WorkerPool::run() {
 void WorkerPool::start_what_fits() {
   const bool stopping = cancelled() || (options_.stop != nullptr && options_.stop->load());
   if (stopping) return;
-  for (auto task = waiting_.begin();
-       task != waiting_.end() && running_.size() < static_cast<std::size_t>(options_.threads);) {
+  for (auto task = waiting_.begin(); task != waiting_.end() && running_.size() < most_;) {
     if (!fits(*task)) {
       ++task;
       continue;
@@ -119,9 +123,32 @@ void WorkerPool::start(PoolTask task) {
   const auto taken = [&](const auto& worker) { return worker->task.place == task.place; };
   while (std::any_of(running_.begin(), running_.end(), taken)) ++task.place;
   const auto expected = task.alone ? std::nullopt : task.memory();
-  running_.push_back(
-      std::make_unique<Worker>(std::move(task), std::max(1, options_.threads / static_cast<int>(places))));
-  running_.back()->expected = expected;
+  try {
+    running_.push_back(std::make_unique<Worker>(task, std::max(1, options_.threads / static_cast<int>(places))));
+    running_.back()->expected = expected;
+  } catch (const Error& error) {
+    if (!try_again()) throw;
+    refused(std::move(task), error.what());
+  }
+}
+
+/// Whether it makes sense after a process was refused: when one of ours ends there is room; others' may end soon.
+bool WorkerPool::try_again() {
+  if (cancelled()) return false;
+  if (!running_.empty()) return true;
+  constexpr std::size_t most_refusals = 10;
+  if (++refusals_alone_ > most_refusals) return false;
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  return true;
+}
+
+void WorkerPool::refused(PoolTask task, const std::string& why) {
+  most_ = std::max<std::size_t>(running_.size(), 1);
+  on_event_(task, {{"e", "said"},
+                   {"node", ""},
+                   {"text", fmt::format("{}: {} run side by side from here on (-j)", why, most_)},
+                   {"warning", true}});
+  waiting_.push_front(std::move(task));
 }
 
 void WorkerPool::wait() const {
@@ -174,6 +201,9 @@ void WorkerPool::check_memory() {
 
 void WorkerPool::end(Worker& worker) {
   read(worker);  // the rest of what it said
+  const int failure = worker.process.failure();
+  const std::string no_start = "cannot start a process: " + std::generic_category().message(failure);
+  if ((failure == EAGAIN || failure == ENOMEM) && try_again()) return refused(std::move(worker.task), no_start);
   const int status = *worker.process.ended();
   const bool done = worker.whole && WIFEXITED(status) && WEXITSTATUS(status) == 0;
   if (worker.killed_for_others && !done && cancelled_at_ == 0) {
@@ -185,7 +215,7 @@ void WorkerPool::end(Worker& worker) {
   end.how = done ? PoolEnd::How::done : cancelled_at_ > 0 ? PoolEnd::How::cancelled : PoolEnd::How::crashed;
   end.printed = worker.process.printed();
   end.nodes.assign(worker.nodes.begin(), worker.nodes.end());
-  end.reason = !worker.killed.empty() ? worker.killed : how_ended(status);
+  end.reason = !worker.killed.empty() ? worker.killed : failure != 0 ? no_start : how_ended(status);
   if (worker.killed.empty() && WIFEXITED(status)) end.reason += said(end.printed);
   if (worker.killed.empty() && WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
     end.reason += ", perhaps by the system for lack of memory";

@@ -41,7 +41,8 @@ struct PoolEnd {
 
 /// Runs tasks in processes of their own, as many side by side as there are threads and memory for. A worker alone that
 /// needs more than all of the memory is ended, which counts as a crash; of several the last that was started is ended,
-/// and started again when nothing else runs. Not for several threads.
+/// and started again when nothing else runs. Where the system refuses one more process, no more run side by side than
+/// it has given; if it gives none, that is tried for a second. Not for several threads.
 class WorkerPool {
  public:
   /// What a worker says while it runs, and how it ended. `on_end` may add tasks. After `on_end` no process of the task
@@ -63,6 +64,8 @@ class WorkerPool {
   void start_what_fits();
   bool fits(const PoolTask& task) const;
   void start(PoolTask task);
+  bool try_again();
+  void refused(PoolTask task, const std::string& why);
   void wait() const;
   void read(Worker& worker);
   void check(Worker& worker);
@@ -75,6 +78,8 @@ class WorkerPool {
   OnEnd on_end_;
   std::deque<PoolTask> waiting_;
   std::vector<std::unique_ptr<Worker>> running_;
+  std::size_t most_;                ///< workers side by side
+  std::size_t refusals_alone_ = 0;  ///< how often the system has refused a process while there was none
   double cancelled_at_ = 0;
 };
 

@@ -23,6 +23,8 @@ class WorkerProcess {
   /// How it ended, as waitpid(2) says it; nothing while it runs. Nothing that it has started is left then. Call read()
   /// once more after it.
   std::optional<int> ended();
+  /// Why it could not be started, from errno; 0: it was, or it is not known yet.
+  int failure() const { return process_.failure().value_or(0); }
   bool terminate() const { return process_.terminate(); }  ///< asks it to end
   void end() { process_.end(); }                           ///< ends it, and what it has started
   /// Memory of its own that is resident (no mapped files), bytes.

@@ -10,6 +10,8 @@
 #include <exception>
 #include <string>
 
+#include "graph/api/standard_streams.hpp"
+
 namespace {
 
 std::string read_all(int file) {
@@ -32,6 +34,7 @@ bool write_all(int file, const std::string& bytes) {
 }  // namespace
 
 int main() {
+  atrium::secure_standard_streams();
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing is left of a run that is killed
   const int replies = ::dup(STDOUT_FILENO);
   ::dup2(STDERR_FILENO, STDOUT_FILENO);

@@ -70,6 +70,7 @@ ColourMap load_colour_map(const std::string& name) {
     map.colours.push_back(
         {static_cast<std::uint8_t>(red), static_cast<std::uint8_t>(green), static_cast<std::uint8_t>(blue)});
   }
+  if (file.bad()) throw Error("cannot read " + path.string());
   if (map.colours.size() < 2) throw Error(path.string() + " holds fewer than two colours");
   return map;
 }

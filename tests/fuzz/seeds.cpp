@@ -120,6 +120,22 @@ void write_scans() {
         "2 2 2 1 1 1 1\n");
 }
 
+/// The same formats as other programs spell them.
+void write_spellings() {
+  write("ply", "strips.ply",
+        "PLY\r\nformat ascii 1.0\nelement vertex 5\rproperty float x\nproperty float y\nproperty float z\n"
+        "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+        "0 0 0 1 0 0 0 1 0 1 1 0 2 0 1\n8 0 1 2 3 -1 4 1 0\n");
+  write(
+      "pcd", "lines.pcd",
+      "\xEF\xBB\xBF# .PCD v0.7\rfields x y z rgb\rsize 4 4 4 4\rtype f f f f\rwidth 3\rheight 2\rpoints 6\r"
+      "viewpoint 0 0 0 1 0 0 0\rdata ASCII\r0\r0\r0\r255\r1 0 0 16711680\r1 1 1 -1\r2 2 2 4.2e-39\r0 1 0 9 1 2 0 9\r");
+  write("obj", "lines.obj", "v 0 0 0 # one\nv 1 \\\n0 0\nV 0 1 0\nvn 0 0 1\nf 1// \\\r\n2/3/1 -1\nsurf 0 1\n");
+  write("stl", "capitals.stl",
+        " SOLID a\nFACET NORMAL 0 0 1 OUTER LOOP VERTEX 0 0 0 VERTEX 1 0 0\rVERTEX 0 1 0 END LOOP\nEND FACET\nEND "
+        "SOLID\n");
+}
+
 void write_files() {
   const auto cloud = input(some_cloud());
   const auto mesh = input(some_mesh());
@@ -134,6 +150,7 @@ void write_files() {
     if (format != "obj") io::WriteMesh::run({mesh}, {{"mesh_text." + format}, false}, context);
   }
   write_scans();
+  write_spellings();
   const test::TemporaryFolder folder;
   Context aside(1, std::make_shared<Host>(folder.path()));
   char choice = 0;  // of tests/fuzz/readers.cpp

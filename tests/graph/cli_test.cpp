@@ -26,8 +26,8 @@ class CommandLine : public testing::Test {
   Result run(const std::string& arguments) { return run(arguments, plugins_of_tests); }
   Result run(const std::string& arguments, const std::string& plugins) {
     const auto err = folder.path() / "stderr";
-    const std::string command = "cd '" + folder.path().string() + "' && ATRIUM_CACHE=off ATRIUM_PLUGIN_PATH='" +
-                                plugins + "' '" + ATRIUM_PROGRAM + "' " + arguments + " 2>'" + err.string() + "'";
+    const std::string command = "cd '" + folder.path().string() + "' && export ATRIUM_CACHE=off ATRIUM_PLUGIN_PATH='" +
+                                plugins + "' && '" + ATRIUM_PROGRAM + "' " + arguments + " 2>'" + err.string() + "'";
     Result result;
     FILE* pipe = ::popen(command.c_str(), "r");
     char block[4096];
@@ -130,7 +130,7 @@ TEST_F(CommandLine, AnEmptyWordIsSaid) {
 
 TEST_F(CommandLine, APipelineComesThroughAPipe) {
   folder.write("pipe.sh", "cat good.yaml | \"$1\" check /dev/stdin && \"$1\" check <(cat good.yaml)\n");
-  const Result result = run("nodes >/dev/null; bash pipe.sh '" ATRIUM_PROGRAM "'");
+  const Result result = run("--version >/dev/null; bash pipe.sh '" ATRIUM_PROGRAM "'");
   EXPECT_EQ(result.out, "ok: 3 nodes\nok: 3 nodes\n") << result.err;
 }
 
@@ -156,7 +156,7 @@ TEST_F(CommandLine, AWorkingFolderThatIsGoneIsSaid) {
   folder.write("gone.sh",
                "mkdir gone && cd gone && rmdir ../gone && \"$1\" run ../good.yaml --out here\n"
                "\"$1\" run \"$2\" --out here\n");
-  const Result result = run("nodes >/dev/null; bash gone.sh '" ATRIUM_PROGRAM "' '" + good.string() + "'");
+  const Result result = run("--version >/dev/null; bash gone.sh '" ATRIUM_PROGRAM "' '" + good.string() + "'");
   EXPECT_EQ(result.code, 1);
   EXPECT_NE(result.err.find("atrium: error: the working folder is not there any more"), std::string::npos)
       << result.err;
@@ -166,7 +166,7 @@ TEST_F(CommandLine, ARunInAFolderWithoutUtf8NameCanBeCompared) {
   folder.write("named.sh",
                "mkdir $'d\\xe4' && cd $'d\\xe4' && cp ../good.yaml . && \"$1\" run good.yaml -q --out o && "
                "\"$1\" diff o o && \"$1\" report o -o page.html\n");
-  const Result result = run("nodes >/dev/null; bash named.sh '" ATRIUM_PROGRAM "'");
+  const Result result = run("--version >/dev/null; bash named.sh '" ATRIUM_PROGRAM "'");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("the same"), std::string::npos) << result.out;
 }
@@ -195,7 +195,7 @@ TEST_F(CommandLine, NodesShowsOneType) {
   EXPECT_NE(result.out.find("distance (length, 0 m to 10 m, default 0.5 m)"), std::string::npos);
   EXPECT_NE(result.out.find("cloud (Cloud)"), std::string::npos);
   const Json list = Json::parse(run("nodes test --json").out);
-  ASSERT_EQ(list.size(), 3U);
+  ASSERT_EQ(list.size(), 4U);
   EXPECT_EQ(list[0]["params"][0]["unit"], "m");
   EXPECT_EQ(list[0]["params"][0]["max"], 10.0);
   EXPECT_NE(run("nodes test --markdown").out.find("| `distance` | length, 0 m to 10 m, default 0.5 m |"),

@@ -56,7 +56,7 @@ TEST(Registry, ListsAllTypesAndWhatCannotBeLoaded) {
   std::vector<std::string> problems;
   const auto types = registry.all(&problems);
   EXPECT_EQ(problems.size(), 3U);
-  ASSERT_EQ(types.size(), 6U);
+  ASSERT_EQ(types.size(), 7U);
   EXPECT_EQ(types[3]->type, "test.find");
 }
 

@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#define ATRIUM_TESTS_HAVE_OWN_TBB 1  // graph/run/run_threads.cpp: no helpers are needed
+
 namespace tbb {
 
 class global_control {
