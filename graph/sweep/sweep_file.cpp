@@ -35,7 +35,7 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& from, c
     std::string pattern;
     if (!std::filesystem::path(given).is_absolute()) {
       for (const char c : from.string())
-        pattern += (std::string_view("*?[\\").find(c) < 4 ? "\\" : "") + std::string(1, c);
+        pattern += (std::string_view("*?[\\").find(c) != std::string_view::npos ? "\\" : "") + std::string(1, c);
       pattern += "/";
     }
     pattern += given;
