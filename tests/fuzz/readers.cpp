@@ -47,14 +47,14 @@ void read_scan(const std::filesystem::path& file, std::size_t size) {
     params.mesh = io::ReadScan::MeshUse::vertices;
     // A file's length tells nothing: it is as good as a choice.
     if (size % 2 == 1) params.unit = io::ReadScan::Unit::automatic;
-    check(io::ReadScan::run({}, params, context).cloud);
+    check(io::ReadScan::run(params, context).cloud);
   });
 }
 
 void read_mesh(const std::filesystem::path& file) {
   read([&] {
     Context context;
-    check(io::ReadMesh::run({}, {{file}}, context).mesh);
+    check(io::ReadMesh::run({{file}}, context).mesh);
   });
 }
 
@@ -68,7 +68,7 @@ void read_groups(const char* name, std::string_view bytes) {
   const auto file = put(name, bytes);
   read([&] {
     Context context;
-    const auto planes = io::ReadVg::run({}, {{file}}, context).planes;
+    const auto planes = io::ReadVg::run({{file}}, context).planes;
     check(*planes.cloud);
     for (const auto& plane : planes.primitives)
       for (const auto point : plane.inliers) require(point < planes.cloud->size());
@@ -102,7 +102,7 @@ void read_building(std::string_view bytes) {
   const auto file = put("building.json", bytes);
   read([&] {
     Context context;
-    const Building building = io::ReadBuilding::run({}, {{file}}, context).building;
+    const Building building = io::ReadBuilding::run({{file}}, context).building;
     for (const auto& face : building.faces)
       for (const auto corner : face.outline) require(corner < building.vertices.size());
   });
@@ -112,7 +112,7 @@ void read_layout(std::string_view bytes) {
   const auto file = put("layout.json", bytes);
   read([&] {
     Context context;
-    check(io::ReadLayout::run({}, {{file}}, context).mesh);
+    check(io::ReadLayout::run({{file}}, context).mesh);
   });
 }
 
