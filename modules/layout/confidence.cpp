@@ -54,6 +54,21 @@ double area_of(const Building& building) {
   return area;
 }
 
+/// Rooms into which no door, passage or hole in a slab leads, where there are others; empty without openings.
+std::vector<std::string> rooms_without_a_way(const Building& building) {
+  if (building.openings.empty() || building.rooms.size() < 2) return {};
+  std::vector<bool> open(building.rooms.size(), false);
+  for (const auto& opening : building.openings) {
+    if (opening.kind == "window") continue;
+    for (const auto room : {opening.room_a, opening.room_b})
+      if (room >= 0) open[static_cast<std::size_t>(room)] = true;
+  }
+  std::vector<std::string> names;
+  for (std::size_t r = 0; r < open.size(); ++r)
+    if (!open[r]) names.push_back(building.rooms[r].name);
+  return names;
+}
+
 /// Judges the building by its rooms and by what they leave out.
 void judge(const PlanePrimitives& planes, const Frame& frame, Building& building) {
   building.confidence = mean_confidence(building);
@@ -70,6 +85,9 @@ void judge(const PlanePrimitives& planes, const Frame& frame, Building& building
                     "largest, {:.1f} m2, {})",
                     slopes.area, slopes.largest, frame.place(slopes.where)));
   }
+  if (const auto closed = rooms_without_a_way(building); !closed.empty())
+    building.doubts.push_back(fmt::format("no door or passage was found into {} of {} rooms ({}{})", closed.size(),
+                                          building.rooms.size(), listed(closed, 5), closed.size() > 5 ? "; …" : ""));
   const CoveredFloor covered = covered_floor_without_room(building, planes);
   if (!(covered.missing > 0)) return;
   const double area = area_of(building), share = area / (area + covered.missing);

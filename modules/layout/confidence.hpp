@@ -20,6 +20,7 @@ namespace atrium::layout {
 /// | width (2 area / perimeter) | from 0.4 m | 0 at 0.2 m | slits between two layers of a wall |
 /// | walls in it, floor to ceiling | up to 6 % of its perimeter | 0.3 at 30 % | rooms that were not parted |
 /// | another floor over an unseen one, or ceiling under one | up to 20 % of its area | 0.3 at 60 % | wrong height |
+/// | a piece of its floor without a ceiling over it, where the rest has one | up to 25 % | 0.7 at 50 % | outside |
 /// | another room has the same place | up to 10 % of its area | 0.2 at 50 % | rooms overlap |
 ///
 /// Squares of 25 cm are looked at, without openings; walls within 15 cm of their plane, floors and ceilings within 10
@@ -29,6 +30,9 @@ namespace atrium::layout {
 /// under a ceiling 1.8 m or more above it, down to 0.3 if they hold 30 % of it (pieces of less than 2 m2 do not count);
 /// times 1 if z is up with 90 % or more (Transform::upright), down to 0.5 at 40 %; and times 1 if sloping surfaces that
 /// are in no face have 5 % of the rooms' area or less, down to 0.4 at 50 %.
+///
+/// Where there are openings, rooms into which none but windows leads are a doubt, too, without weight: doors may be
+/// missed.
 ///
 /// Rooms below min_confidence are left out, with a warning that names place and reason; openings into them then lead
 /// to what is not known. Storeys without rooms are left out, too. Rooms keep their names. Rooms below doubtful are

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "modules/layout/coverage.hpp"
+
 namespace atrium::layout {
 namespace {
 
@@ -15,7 +17,11 @@ constexpr int directions = 16;
 /// The walls of a storey in squares, seen from above.
 class WallMap {
  public:
-  explicit WallMap(const StoreyCells& storey) : storey_(storey) {
+  explicit WallMap(const StoreyCells& storey)
+      : storey_(storey),
+        // Where ceilings were scanned, walls that enclose a room without one are as high: a garden's are not.
+        least_top_(ceiling_scanned(storey) ? storey.floor_height + 0.9 * (storey.ceiling_height - storey.floor_height)
+                                           : least_wall_top(storey.floor_height, storey.ceiling_height)) {
     constexpr double finest = 0.1, most_squares = 1 << 24;
     for (const auto& v : storey.vertices) box_.extend(v);
     if (box_.isEmpty()) return;
@@ -25,7 +31,7 @@ class WallMap {
     edge_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), -1);
     for (std::size_t e = 0; e < storey.edges.size(); ++e) {
       const CellEdge& edge = storey.edges[e];
-      if (std::max(edge.face_left, edge.face_right) < least_seen || is_low(storey, edge)) continue;
+      if (std::max(edge.face_left, edge.face_right) < least_seen || is_low(edge)) continue;
       const Eigen::Vector2d &a = storey.vertices[edge.from], &b = storey.vertices[edge.to];
       const int steps = static_cast<int>(2 * (b - a).norm() / pixel_) + 1;
       for (int i = 0; i <= steps; ++i)
@@ -50,10 +56,7 @@ class WallMap {
   }
 
  private:
-  static bool is_low(const StoreyCells& storey, const CellEdge& edge) {
-    const double top = std::max(edge.top_left, edge.top_right);
-    return top < least_wall_top(storey.floor_height, storey.ceiling_height);
-  }
+  bool is_low(const CellEdge& edge) const { return std::max(edge.top_left, edge.top_right) < least_top_; }
 
   std::int32_t* at(const Eigen::Vector2d& p) {
     const auto x = static_cast<std::int64_t>(std::floor((p.x() - box_.min().x()) / pixel_));
@@ -63,6 +66,7 @@ class WallMap {
   }
 
   const StoreyCells& storey_;
+  double least_top_;
   Eigen::AlignedBox2d box_;
   double pixel_ = 0.1;
   int width_ = 0, height_ = 0;

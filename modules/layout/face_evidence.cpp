@@ -95,7 +95,6 @@ RoomView EvidenceFinder::view_of(std::int32_t index) const {
       const Eigen::Vector3d p(x, y, floor + std::min(eye, room.height / 2));
       if (contains(room.outline, p) && !space_.is_occupied(p)) view.places.push_back(p);
     }
-  view.enough = std::max<std::size_t>(1, view.places.size() / 4);
   return view;
 }
 
@@ -107,7 +106,11 @@ FaceEvidence EvidenceFinder::gather(std::size_t index) const {
   const RoomView& view = views_[static_cast<std::size_t>(face.room)];
   if (view.places.empty()) return evidence;
   evidence.frame = upright_frame(face.plane, building_.vertices[face.outline[0]]);
-  evidence.tolerance = std::clamp(noise_levels * face.residual, params_.tolerance, 2 * params_.tolerance);
+  const double noise = noise_levels * face.residual;
+  evidence.tolerance = std::clamp(noise, params_.tolerance, 2 * params_.tolerance);
+  // The reveals of a door in a thin wall lie between its faces: points there are not all on one of them.
+  if (const double thickness = thickness_at(index); thickness < params_.max_thickness)
+    evidence.tolerance = std::min(evidence.tolerance, std::max(thickness / 3, std::min(noise, evidence.tolerance)));
   evidence.ways_known = !view.sensors.empty();
   Eigen::AlignedBox2d box;
   for (const auto v : face.outline) box.extend(evidence.frame.to_plane(building_.vertices[v]));
@@ -148,12 +151,18 @@ void EvidenceFinder::collect_points(const BuildingFace& face, FaceEvidence& evid
   });
 }
 
-/// Points between the face and the one behind it; none can be in a solid wall.
-void EvidenceFinder::find_body(std::size_t index, FaceEvidence& evidence) const {
+double EvidenceFinder::thickness_at(std::size_t index) const {
   double thickness = params_.max_thickness;
   for (const auto& wall : building_.walls)
     if (wall.face_a == static_cast<std::int32_t>(index) || wall.face_b == static_cast<std::int32_t>(index))
-      thickness = std::min(thickness, wall.thickness - 0.5 * evidence.tolerance);
+      thickness = std::min(thickness, wall.thickness);
+  return thickness;
+}
+
+/// Points between the face and the one behind it; none can be in a solid wall.
+void EvidenceFinder::find_body(std::size_t index, FaceEvidence& evidence) const {
+  double thickness = thickness_at(index);
+  if (thickness < params_.max_thickness) thickness -= 0.5 * evidence.tolerance;
   for (const auto& p : evidence.behind)
     if (p.z() < thickness) evidence.through.emplace_back(p.head<2>());
 }
@@ -186,12 +195,14 @@ void EvidenceFinder::look_through(std::size_t index, FaceEvidence& evidence) con
   const Eigen::Vector3d off = std::max(evidence.tolerance + evidence.spacing, 2 * params_.pixel) * normal;
   const auto is_seen = [&](int x, int y) {
     const Eigen::Vector3d p = evidence.frame.to_space(mask.centre(x, y)) + off;
+    std::vector<Eigen::Vector3d> ways;
+    for (const auto& place : view.places)
+      if (const Eigen::Vector3d way = place - p; way.dot(normal) >= grazing * way.norm()) ways.push_back(way);
+    const std::size_t enough = evidence.ways_known ? 1 : std::max<std::size_t>(1, ways.size() / 4);
     std::size_t seen = 0;
-    for (std::size_t i = 0; i < view.places.size() && seen + view.places.size() - i >= view.enough; ++i) {
-      const Eigen::Vector3d way = view.places[i] - p;
-      if (way.dot(normal) < grazing * way.norm()) continue;
-      const double spared = evidence.ways_known ? std::min(1.0, blind / way.norm()) : 0;
-      if (space_.is_free(p, view.places[i] - spared * way) && ++seen >= view.enough) return true;
+    for (std::size_t i = 0; i < ways.size() && seen + ways.size() - i >= enough; ++i) {
+      const double spared = evidence.ways_known ? std::min(1.0, blind / ways[i].norm()) : 0;
+      if (space_.is_free(p, p + (1 - spared) * ways[i]) && ++seen >= enough) return true;
     }
     return false;
   };

@@ -32,7 +32,6 @@ double depth_behind(const Openings::Params& params);
 /// From where the faces of a room were seen.
 struct RoomView {
   std::vector<Eigen::Vector3d> places;
-  std::size_t enough = 1;            ///< how many of them must see a square
   std::vector<std::size_t> sensors;  ///< of the cloud; empty: the places are made up
 };
 
@@ -51,6 +50,8 @@ class EvidenceFinder {
   RoomView view_of(std::int32_t room) const;
   void collect_points(const BuildingFace& face, FaceEvidence& evidence) const;
   void find_ways(const BuildingFace& face, FaceEvidence& evidence) const;
+  /// The least thickness of the walls that the face is a side of; max_thickness if it is none.
+  double thickness_at(std::size_t index) const;
   void find_body(std::size_t face, FaceEvidence& evidence) const;
 
   const Building& building_;

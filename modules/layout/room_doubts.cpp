@@ -45,6 +45,9 @@ std::vector<Doubt> doubts_of(const BuildingRoom& room, const RoomEvidence& e) {
       fmt::format("another floor lies over {:.0f} % of its floor", percent(e.other_floor)));
   add(ramp(e.other_ceiling, 0.2, 0.6, 1, 0.3),
       fmt::format("another ceiling hangs under {:.0f} % of its ceiling", percent(e.other_ceiling)));
+  add(ramp(e.open_part, 0.25, 0.5, 1, 0.7),
+      fmt::format("no ceiling was seen over a part of it, {:.0f} % of its area: is that outside?",
+                  percent(e.open_part)));
   add(ramp(e.overlap, 0.1, 0.5, 1, 0.2), fmt::format("{:.0f} % of it lie in another room, too", percent(e.overlap)));
   return doubts;
 }

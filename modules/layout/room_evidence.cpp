@@ -126,6 +126,36 @@ bool is_wall(const RoomColumns::Column& column) {
          std::popcount(column.stacked) >= full_height * levels;
 }
 
+/// The share of the columns in the largest connected piece whose floor was seen and whose ceiling was not.
+double largest_open_piece(const RoomColumns& columns, std::size_t inner) {
+  const auto is_open = [&](const RoomColumns::Column* column) {
+    return column != nullptr && column->floor_seen && !column->ceiling_seen;
+  };
+  std::vector<bool> visited(columns.columns.size(), false);
+  std::size_t largest = 0;
+  std::vector<Eigen::Vector2i> left;
+  for (int y = 0; y < columns.height; ++y)
+    for (int x = 0; x < columns.width; ++x) {
+      std::size_t piece = 0;
+      left.assign(1, columns.low + Eigen::Vector2i(x, y));
+      while (!left.empty()) {
+        const Eigen::Vector2i at = left.back();
+        left.pop_back();
+        const auto* column = columns.at(at);
+        if (!is_open(column)) continue;
+        auto seen = visited[static_cast<std::size_t>(column - columns.columns.data())];
+        if (seen) continue;
+        seen = true;
+        ++piece;
+        for (const auto& step :
+             {Eigen::Vector2i(1, 0), Eigen::Vector2i(-1, 0), Eigen::Vector2i(0, 1), Eigen::Vector2i(0, -1)})
+          left.push_back(at + step);
+      }
+      largest = std::max(largest, piece);
+    }
+  return static_cast<double>(largest) / static_cast<double>(inner);
+}
+
 void measure_columns(const BuildingRoom& room, const RoomColumns& columns, RoomEvidence& evidence) {
   std::vector<double> heights;
   std::size_t inner = 0, other_floor = 0, other_ceiling = 0;
@@ -144,6 +174,10 @@ void measure_columns(const BuildingRoom& room, const RoomColumns& columns, RoomE
   }
   const auto all = static_cast<double>(heights.size());
   if (around > 0) evidence.inner_walls = static_cast<double>(inner) * RoomColumns::square / around;
+  const auto roofed = std::count_if(columns.columns.begin(), columns.columns.end(),
+                                    [](const auto& column) { return column.inside && column.ceiling_seen; });
+  constexpr double some = 0.1;  // of the ceiling: with less it was not scanned
+  if (static_cast<double>(roofed) > some * all) evidence.open_part = largest_open_piece(columns, heights.size());
   evidence.other_floor = static_cast<double>(other_floor) / all;
   evidence.other_ceiling = static_cast<double>(other_ceiling) / all;
   std::sort(heights.rbegin(), heights.rend());

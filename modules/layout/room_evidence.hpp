@@ -18,6 +18,7 @@ struct RoomEvidence {
   double inner_walls = 0;  ///< length of walls that stand in it, floor to ceiling, over its perimeter
   double other_floor = 0;  ///< of its floor that was not seen, and over which another floor was
   double other_ceiling = 0;  ///< of its ceiling that was not seen, and under which another ceiling was
+  double open_part = 0;      ///< the largest piece of its floor with no ceiling seen over it, where others have one
   double overlap = 0;        ///< of its area that another room has, too
 };
 
