@@ -4,14 +4,17 @@
 #include <linux/magic.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <map>
 #include <mutex>
 
@@ -87,9 +90,17 @@ void forget(const std::byte* data) {
     if (mapping.path != nullptr && mapping.begin == data) mapping.path = nullptr;
 }
 
+/// Of the machine's, or of what a limit of the process or of its container leaves.
 std::size_t half_of_memory() {
   const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
-  return static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(page);
+  std::uint64_t most = static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page);
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+    most = std::min<std::uint64_t>(most, limit.rlim_cur);
+  std::uint64_t contained = 0;
+  if (std::ifstream file("/sys/fs/cgroup/memory.max"); file >> contained && contained > 0)
+    most = std::min(most, contained);
+  return static_cast<std::size_t>(most / 2);
 }
 
 /// Whether a pipe is in no folder, so that to open its place again is to read on in it.

@@ -58,6 +58,10 @@ struct OptionalInput : std::shared_ptr<const T> {
   OptionalInput(std::shared_ptr<const T> p)
       : std::shared_ptr<const T>(std::move(p)) {}  // NOLINT(google-explicit-constructor)
 };
+/// An input that run() does not use: it lets a node that needs less stand in for another one, wired as that one is.
+/// Nodes of which only such inputs want something are left out of the run.
+template <class T>
+struct UnusedInput {};
 /// A port that takes a list of edges (`in: {clouds: [a.cloud, b.cloud]}`), in the order of the file; at least one.
 template <class T>
 using Inputs = std::vector<std::shared_ptr<const T>>;
@@ -84,6 +88,7 @@ constexpr auto port(std::string_view doc) {
 struct PortInfo {
   std::string name, type, doc;
   bool optional = false, repeated = false;
+  bool unused = false;                                   ///< of an input: its node does not look at it
   Value (*wrap)(std::shared_ptr<const void>) = nullptr;  ///< of an output: the value of a port from its data
   const FlatType* flat = nullptr;  ///< how its values are laid out and stored; null: they are not stored
 };
@@ -122,17 +127,22 @@ struct InputKind;
 template <class T>
 struct InputKind<std::shared_ptr<const T>> {
   using Type = T;
-  static constexpr bool optional = false, repeated = false;
+  static constexpr bool optional = false, repeated = false, unused = false;
 };
 template <class T>
 struct InputKind<OptionalInput<T>> {
   using Type = T;
-  static constexpr bool optional = true, repeated = false;
+  static constexpr bool optional = true, repeated = false, unused = false;
+};
+template <class T>
+struct InputKind<UnusedInput<T>> {
+  using Type = T;
+  static constexpr bool optional = true, repeated = false, unused = true;
 };
 template <class T>
 struct InputKind<std::vector<std::shared_ptr<const T>>> {
   using Type = T;
-  static constexpr bool optional = false, repeated = true;
+  static constexpr bool optional = false, repeated = true, unused = false;
 };
 template <class T>
 struct OutputKind {
@@ -155,8 +165,8 @@ void bind(S& in, const PortRow<S, T>& row, const std::vector<Value>& values) {
   using Kind = InputKind<T>;
   if constexpr (Kind::repeated) {
     for (const auto& v : values) (in.*row.member).push_back(get<typename Kind::Type>(v));
-  } else if (!values.empty()) {
-    in.*row.member = get<typename Kind::Type>(values.front());
+  } else if constexpr (!Kind::unused) {
+    if (!values.empty()) in.*row.member = get<typename Kind::Type>(values.front());
   }
 }
 
@@ -322,7 +332,7 @@ NodeType describe_tables() {
   const auto add_input = [&]<class S, class T>(const PortRow<S, T>& row) {
     using Kind = detail::InputKind<T>;
     node.inputs.push_back({std::string(row.name), std::string(PortType<typename Kind::Type>::name),
-                           std::string(row.doc), Kind::optional, Kind::repeated, nullptr,
+                           std::string(row.doc), Kind::optional, Kind::repeated, Kind::unused, nullptr,
                            flat_type<typename Kind::Type>()});
   };
   const auto add_output = [&]<class S, class T>(const PortRow<S, T>& row) {
@@ -331,7 +341,7 @@ NodeType describe_tables() {
       return make_value<Type>(std::static_pointer_cast<const Type>(std::move(data)));
     };
     node.outputs.push_back({std::string(row.name), std::string(PortType<Type>::name), std::string(row.doc), false,
-                            false, wrap, flat_type<Type>()});
+                            false, false, wrap, flat_type<Type>()});
   };
   std::apply([&](const auto&... row) { (add_input(row), ...); }, inputs);
   std::apply([&](const auto&... row) { (add_output(row), ...); }, outputs);

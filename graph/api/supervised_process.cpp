@@ -172,8 +172,11 @@ void append_all(int& file, std::string& text) {
   std::array<char, 65536> bytes{};
   for (int i = 0; i < most_at_once && file >= 0; ++i) {
     const ssize_t size = ::read(file, bytes.data(), bytes.size());
-    if (size < 0) return;
-    if (size == 0) ::close(std::exchange(file, -1));
+    if (size < 0 && (errno == EAGAIN || errno == EINTR)) return;
+    if (size <= 0) {  // what cannot be read has ended
+      ::close(std::exchange(file, -1));
+      return;
+    }
     text.append(bytes.data(), static_cast<std::size_t>(size));
   }
 }
@@ -282,9 +285,9 @@ void SupervisedProcess::read_messages() {
     if (message.kind == Message::failed) failure_ = message.value;
     if (message.kind == Message::ended) status_ = message.value;
   }
-  if (size != 0) return;
+  if (size < 0 && (errno == EAGAIN || errno == EINTR)) return;
   ::close(std::exchange(messages_, -1));
-  if (!status_ && !failure_) status_ = SIGKILL;  // somebody has killed the supervisor, and with it the program
+  if (!status_ && !failure_) status_ = SIGKILL;  // the supervisor is killed or cannot be heard: its program is too
 }
 
 void SupervisedProcess::look_at_memory() {

@@ -70,13 +70,14 @@ std::shared_ptr<const void> read_blob(const std::filesystem::path& file, const F
   const Head head = checked_head(stored);
   if (head.layout != type.layout) throw DamagedFile(file.string() + " holds a value of another layout");
   if (std::string_view(head.hash, sizeof head.hash) != hash) throw DamagedFile(file.string() + " holds another value");
-  std::vector<std::byte> bytes(static_cast<std::size_t>(stored.size() - sizeof head - digest_size));
-  stored.read(bytes.data(), sizeof head, bytes.size());
-  FlatReader reader(bytes.data(), bytes.size(), resolve);
+  FlatReader reader([&](void* to, std::uint64_t at, std::size_t size) { stored.read(to, sizeof head + at, size); },
+                    static_cast<std::size_t>(stored.size() - sizeof head - digest_size), resolve);
   try {
     auto value = type.read(reader);
     if (!reader.at_end()) throw Error("it is longer than its value");
     return value;
+  } catch (const UnreadableFile&) {
+    throw;
   } catch (const Error& error) {
     throw DamagedFile(file.string() + ": " + error.what());
   }

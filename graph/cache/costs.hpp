@@ -12,7 +12,7 @@ namespace atrium {
 /// What a node will probably take, from the last 20 records of those like it.
 struct Cost {
   double wall = 0;  ///< seconds, the median
-  /// Bytes above what is there when it begins: so much suffices nine times out of ten. Nothing: none of them ran alone.
+  /// The 90th percentile of the bytes above what was resident at the start; nothing if none of them ran alone.
   std::optional<std::uint64_t> memory;
 };
 

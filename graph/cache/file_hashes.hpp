@@ -17,8 +17,7 @@ class FileHashes {
 
   /// Of a file's bytes; of a folder, of the names and bytes of all files in it. Throws Error if one cannot be read.
   std::string of(const std::filesystem::path& path);
-  /// What is cheaply known about a file or, of a folder, of all files in it: another text for the same path, perhaps
-  /// other contents.
+  /// A cheap fingerprint from stat(2); of a folder: of every file in it. If it changes, the contents may have changed.
   /// Throws Error if one cannot be read.
   static std::string fingerprint(const std::filesystem::path& path);
   /// Whether a file of that name in the folder is what it was when it was written.

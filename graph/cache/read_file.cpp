@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "graph/api/context.hpp"
-#include "graph/api/error.hpp"
 #include "graph/api/walk.hpp"
 
 namespace atrium {
@@ -19,7 +18,7 @@ namespace {
 constexpr std::size_t piece = std::size_t{1} << 20U;
 
 [[noreturn]] void fail_reading(const std::filesystem::path& path, int reason) {
-  throw Error("cannot read " + path.string() + ": " + std::generic_category().message(reason));
+  throw UnreadableFile("cannot read " + path.string() + ": " + std::generic_category().message(reason));
 }
 
 /// Calls see(data, size) for the first `size` bytes of the file, in pieces.
@@ -57,7 +56,7 @@ void ReadFile::read(void* to, std::uint64_t at, std::size_t size) const {
     const ssize_t got = ::pread(file_, data, size, static_cast<off_t>(at));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) fail_reading(path_, errno);
-    if (got == 0) throw Error("cannot read " + path_.string() + ": it has become shorter");
+    if (got == 0) throw UnreadableFile("cannot read " + path_.string() + ": it has become shorter");
     data += got;
     at += static_cast<std::uint64_t>(got);
     size -= static_cast<std::size_t>(got);

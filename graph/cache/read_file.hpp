@@ -3,13 +3,21 @@
 #include <filesystem>
 #include <string>
 
+#include "graph/api/error.hpp"
+
 namespace atrium {
+
+/// The system does not give a file's bytes.
+class UnreadableFile : public Error {
+ public:
+  using Error::Error;
+};
 
 /// A regular file that is read piece by piece, not mapped: in a folder that machines share another one may remove or
 /// cut it at any time, which is an error here and would end the process there.
 class ReadFile {
  public:
-  /// Throws Error with the system's reason.
+  /// Throws UnreadableFile with the system's reason.
   explicit ReadFile(const std::filesystem::path& path);
   ~ReadFile();
   ReadFile(const ReadFile&) = delete;
@@ -17,7 +25,7 @@ class ReadFile {
 
   const std::filesystem::path& path() const { return path_; }
   std::uint64_t size() const { return size_; }
-  /// Throws Error, also if the file has become shorter.
+  /// Throws UnreadableFile, also if the file has become shorter.
   void read(void* to, std::uint64_t at, std::size_t size) const;
   /// The content hash of so many bytes from the beginning.
   std::string hash(std::uint64_t size) const;

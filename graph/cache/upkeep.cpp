@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 /// then the file's age tells.
 bool is_abandoned(const CacheEntry& entry) {
   constexpr std::time_t minute = 60;
-  constexpr std::time_t day = 24 * 3600;
+  constexpr std::time_t day = std::time_t{24} * 3600;
   const auto gone = is_writer_gone(entry.path.filename().string());
   const std::time_t age = std::time(nullptr) - entry.used.tv_sec;
   return gone ? *gone && age > minute : age > day;

@@ -139,9 +139,9 @@ void add_cache(CLI::App& app, int& exit_code) {
     sub->callback([options, &exit_code, work] { exit_code = work(*options); });
     return sub;
   };
-  add("stat", "Shows how much there is of what.", stat);
+  add("stat", "Shows the cache's size by category.", stat);
   auto* garbage = add("gc", "Removes what has not been used for longest.", gc);
-  add_size(*garbage, "--cache-size", options->cache.size, "leaves at most so much")->capture_default_str();
+  add_size(*garbage, "--cache-size", options->cache.size, "size to shrink it to")->capture_default_str();
   add("verify", "Checks every file; removes those that are damaged.", verify);
 }
 

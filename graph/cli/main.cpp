@@ -51,6 +51,11 @@ constexpr const char* help_for_memory =
   } catch (...) {
     std::fprintf(stderr, "atrium: error: something that is no std::exception (this is a fault of the program)\n");
   }
+  if (!std::current_exception()) {  // as libstdc++ ends where memory is refused within a function that must not throw
+    std::fprintf(stderr, "atrium: error: a library gave up, as it does when memory ends\n  help: %s\n",
+                 help_for_memory);
+    std::_Exit(atrium::cli::failed);
+  }
   std::abort();
 }
 

@@ -16,7 +16,10 @@ using Types = std::vector<const NodeType*>;
 std::string module_of(const NodeType& node) { return node.type.substr(0, node.type.find('.')); }
 
 std::string port_type(const PortInfo& port) {
-  return fmt::format("{}{}{}", port.type, port.repeated ? ", one or more" : "", port.optional ? ", optional" : "");
+  return fmt::format("{}{}{}", port.type, port.repeated ? ", one or more" : "",
+                     port.unused     ? ", not used"
+                     : port.optional ? ", optional"
+                                     : "");
 }
 
 nlohmann::ordered_json initial_json(const ParamInfo& param) {

@@ -61,7 +61,7 @@ void add_report(CLI::App& app, int& exit_code) {
           "a model that the variants have written, by its path in their folders; may be repeated (default: the "
           "smallest .glb, or .ply with faces, that most variants have)")
       ->type_name("FILE");
-  verb->add_option("--most-models", options->most_models, "the models of so many variants at most");
+  verb->add_option("--most-models", options->most_models, "include the models of at most so many variants");
   verb->add_option("--max-size", options->max_megabytes, "megabytes of pictures and models at most")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1e6));

@@ -49,11 +49,6 @@ void print_run_summary(const RunResult& result, const fs::path& folder) {
       result.peak_memory / 1'000'000, folder.string());
 }
 
-// Libraries that bring OpenMP use as many threads as the run; they read this when their plugin is loaded.
-void limit_openmp(int threads) {
-  if (threads > 0) ::setenv("OMP_NUM_THREADS", std::to_string(threads).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
-}
-
 int run_file(const RunArguments& options) {
   limit_openmp(options.threads);
   Registry registry;

@@ -59,7 +59,7 @@ void print_forecast(const SweepForecast& forecast, const SweepPlan& plan, std::s
   if (forecast.to_run > forecast.unknown) {
     text += fmt::format(", about {} one after the other", clock_text(forecast.seconds));
     text += fmt::format(", the largest with {}", size_text(forecast.memory));
-    if (forecast.unknown > 0) text += fmt::format(" (without {} that nothing is known of)", forecast.unknown);
+    if (forecast.unknown > 0) text += fmt::format(" ({} nodes without an estimate are not counted)", forecast.unknown);
   }
   say("{}\n", text);
 }
@@ -120,8 +120,7 @@ int plan(const SweepArguments& options) {
 }
 
 int run_variants(const SweepArguments& options) {
-  if (options.threads > 0)
-    ::setenv("OMP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+  limit_openmp(options.threads);
   Registry registry;
   const LoadedSweep loaded = load_sweep(options.file, to_overrides(options.settings), registry);
   if (!loaded.sweep) return invalid;
@@ -177,7 +176,8 @@ void add_sweep(CLI::App& app, int& exit_code) {
   add_common(*ran, *options);
   ran->add_option("-j,--threads", options->threads, "threads; 1: one node after the other (default: one per core)")
       ->check(CLI::Range(1, 1024));
-  ran->add_option("--max-fail", options->max_failures, "stop after so many failures")->check(CLI::Range(1, 1'000'000));
+  ran->add_option("--max-fail", options->max_failures, "stop after so many failed variants")
+      ->check(CLI::Range(1, 1'000'000));
   ran->add_flag("--fail-fast", options->fail_fast, "stop after the first failure");
   ran->add_flag("-q,--quiet", options->quiet, "no progress and no warnings on stderr, errors only");
   ran->add_flag("--no-hashes", options->no_hashes, "leave the content hashes of outputs out of manifest.json");

@@ -8,8 +8,8 @@
 #include "graph/cache/build_ids.hpp"
 #include "graph/cache/upkeep.hpp"
 #include "graph/cli/sweep_output.hpp"
+#include "graph/farm/submission.hpp"
 #include "graph/sweep/recorder.hpp"
-#include "graph/sweep/submission.hpp"
 
 namespace atrium::cli {
 namespace {
@@ -138,7 +138,7 @@ void add_sweep_submit(CLI::App& sweep, int& exit_code) {
                    "slurm: two job arrays (sbatch); parallel: GNU parallel, here or with --sshlogin")
       ->required()
       ->check(CLI::IsMember({"slurm", "parallel"}));
-  verb->add_option("--shards", options->shards, "in so many jobs (default: one per variant, at most 100)")
+  verb->add_option("--shards", options->shards, "number of jobs (default: one per variant, at most 100)")
       ->check(CLI::Range(1, 100'000));
   verb->add_flag("--dry-run", options->dry, "only print what would be called");
   verb->add_option("-j,--threads", options->threads,

@@ -7,10 +7,10 @@
 #include "graph/cache/build_ids.hpp"
 #include "graph/cli/signals.hpp"
 #include "graph/cli/verbs.hpp"
+#include "graph/farm/submission.hpp"
 #include "graph/pipeline/registry.hpp"
 #include "graph/run/console_progress.hpp"
 #include "graph/sweep/isolated_run.hpp"
-#include "graph/sweep/submission.hpp"
 
 namespace atrium::cli {
 namespace {
@@ -38,8 +38,7 @@ WorkerTask task_of(const fs::path& folder, const std::vector<std::string>& names
 int work_here(const WorkArguments& options) {
   keep_occupied(WorkerProcess::events_file, O_WRONLY);       // before any file is opened
   ::fcntl(WorkerProcess::events_file, F_SETFD, FD_CLOEXEC);  // not for programs that nodes start
-  if (options.threads > 0)
-    ::setenv("OMP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+  limit_openmp(options.threads);
   const CancelOnSignal signals;
   Registry registry;
   const fs::path folder = fs::absolute(options.folder).lexically_normal();
@@ -72,6 +71,11 @@ std::vector<std::string> worker_arguments(const CacheChoice& choice, const Cache
   if (cache != nullptr) arguments = {"--cache", cache->places().folder.string(), "--cache-size", choice.size};
   if (no_hashes) arguments.emplace_back("--no-hashes");
   return arguments;
+}
+
+void limit_openmp(int threads) {
+  ::setenv("OMP_NUM_THREADS", std::to_string(std::max(threads, 1)).c_str(),
+           threads > 0 ? 1 : 0);  // NOLINT(concurrency-mt-unsafe)
 }
 
 std::string own_program() {

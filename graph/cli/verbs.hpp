@@ -48,6 +48,9 @@ std::unique_ptr<Cache> open_cache(const CacheChoice& choice);
 
 /// What the processes of a sweep are told of its cache (null: none) and of hashes.
 std::vector<std::string> worker_arguments(const CacheChoice& choice, const Cache* cache, bool no_hashes);
+/// Libraries that bring OpenMP use as many threads as the run (without -j: one, or what OMP_NUM_THREADS says); they
+/// read this when their plugin is loaded.
+void limit_openmp(int threads);
 /// The path of this program.
 std::string own_program();
 

@@ -102,7 +102,7 @@ void print_difference(const Json& nodes, const KeyDifference& difference) {
     fmt::print("  {}: another value{}\n", difference.name.substr(3),
                source.empty() ? "" : fmt::format(" (from {}: ask about that node)", source));
   } else if (difference.name == "build") {
-    fmt::print("  build: the plugin or Atrium itself was built anew\n");
+    fmt::print("  build: the plugin, a library that it is linked with, or the processor differs\n");
   } else {
     fmt::print("  {}: {} → {}\n", difference.name, shown(difference.then), shown(difference.now));
   }

@@ -282,7 +282,10 @@ class DocumentReader {
 };
 
 /// Files that people hand over in the place of a pipeline: point clouds and meshes.
-bool is_other_format(std::string_view text) {
+bool is_other_format(const std::filesystem::path& path, std::string_view text) {
+  constexpr std::string_view endings[] = {".xyz", ".txt", ".csv", ".asc", ".pts", ".ptx", ".obj",
+                                          ".stl", ".las", ".laz", ".e57", ".ply", ".pcd"};
+  if (std::find(std::begin(endings), std::end(endings), path.extension().string()) != std::end(endings)) return true;
   constexpr std::string_view beginnings[] = {"ply\n", "ply\r", "# .PCD",   "VERSION .7", "VERSION 0.7",
                                              "LASF",  "glTF",  "ASTM-E57", "solid "};
   return std::any_of(std::begin(beginnings), std::end(beginnings),
@@ -312,7 +315,7 @@ std::unique_ptr<Document> read_document(const std::filesystem::path& path, std::
       return nullptr;
     }
     document->source.folder = std::filesystem::current_path(ignored);
-  } else if (text && is_other_format(*text)) {
+  } else if (text && is_other_format(path, *text)) {
     findings.error({&document->source, {}}, "this is no pipeline file, but data",
                    fmt::format("to run a pipeline on it: atrium run atrium.yaml -s scan={}", document->source.name));
     return nullptr;

@@ -209,6 +209,10 @@ void Expander::check_given_variables(const Scope& scope) {
     for (const auto& node : scope.document->nodes)
       if (outermost && node.id.text == set->name)
         hint = fmt::format("a node's parameter: -s {}.PARAMETER=VALUE", set->name);
+      else if (const auto& params = node.params;
+               outermost &&
+               std::any_of(params.begin(), params.end(), [&](const auto& p) { return p.name.text == set->name; }))
+        hint = fmt::format("a parameter of the node '{0}': -s {0}.{1}=VALUE", node.id.text, set->name);
     if (hint.empty()) hint = candidates.empty() ? "it has no variables" : "what can be set: " + join_words(candidates);
     const Where where =
         scope.node == nullptr ? Where{&scope.document->source, {}} : scope.parent->at(scope.node->id.place);
@@ -239,7 +243,7 @@ void Expander::add_node(Scope& scope, const DocumentNode& node) {
     else if (!Registry::missing_library(*vertex.type).empty())
       findings_.error(where, fmt::format("'{}' is not built", type), std::string(how_to_build), notes);
   }
-  scope.members.emplace(node.id.text, Member{atrium::add_node(std::move(vertex), expansion_.graph), nullptr});
+  scope.members.emplace(node.id.text, Member{atrium::add_node(vertex, expansion_.graph), nullptr});
   expansion_.origins.push_back(origin);
   if (expansion_.origins.size() == most_nodes + 1)
     findings_.error(scope.at(node.id.place), fmt::format("the pipeline has more than {} nodes", most_nodes));

@@ -2,6 +2,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <set>
 
 #include "graph/api/suggest.hpp"
 #include "graph/pipeline/expansion.hpp"
@@ -35,14 +36,21 @@ void check_versions(const Expansion& expansion, Findings& findings) {
   }
 }
 
+bool is_in_picture(const Scope* scope) {
+  for (; scope != nullptr; scope = scope->parent)
+    if (scope->document->source.picture) return true;
+  return false;
+}
+
 /// People take a picture for something that does nothing.
-void check_programs(const Document& root, const Expansion& expansion, Findings& findings) {
-  if (!root.source.picture) return;
-  for (const std::size_t n : all_nodes(expansion.graph))
-    if (const PipelineNode& node = expansion.graph[n]; node.type != nullptr && node.type->runs_programs)
+void check_programs(const Expansion& expansion, Findings& findings) {
+  for (const std::size_t n : all_nodes(expansion.graph)) {
+    const PipelineNode& node = expansion.graph[n];
+    if (node.type != nullptr && node.type->runs_programs && is_in_picture(expansion.origins[n].scope))
       findings.error(expansion.origins[n].where(),
                      fmt::format("the picture's pipeline would start a program: '{}' ({})", node.path, node.type->type),
                      "if you know where the picture comes from, run the resolved.yaml beside it");
+  }
 }
 
 /// Nodes that lead to a file or an output of the outermost file. A sub-pipeline's output that nobody reads is not made.
@@ -53,13 +61,34 @@ std::vector<bool> needed_nodes(const Dataflow& graph) {
   return with_sources(ends, graph);
 }
 
-Pipeline checked_pipeline(const Dataflow& graph) {
+/// What is read by a node that does not use it (UnusedInput) is not made for it.
+void drop_unused_edges(Dataflow& graph) {
+  const auto is_unused = [&](const DataflowEdge& edge) {
+    return graph[boost::target(edge, graph)].type->inputs[graph[edge].input].unused;
+  };
+  boost::remove_edge_if(is_unused, graph);
+}
+
+Pipeline checked_pipeline(Dataflow graph) {
+  drop_unused_edges(graph);
   const std::vector<bool> needed = needed_nodes(graph);
   std::vector<std::size_t> order = topological_order(graph);
   std::erase_if(order, [&](std::size_t n) { return !needed[n]; });
   Pipeline pipeline = part_of(graph, order);
   for (const std::size_t n : all_nodes(pipeline)) pipeline[n].seed = node_seed(pipeline[whole].seed, pipeline[n].path);
   return pipeline;
+}
+
+/// A setting of a node that does not run has no effect.
+void check_overrides_matter(const Document& root, const Expansion& expansion, const Overrides& overrides,
+                            const Pipeline& pipeline, Findings& findings) {
+  std::set<std::string_view> runs, known;
+  for (const std::size_t n : all_nodes(pipeline)) runs.insert(pipeline[n].path);
+  for (const std::size_t n : all_nodes(expansion.graph)) known.insert(expansion.graph[n].path);
+  for (const ParsedOverride& set : overrides.all())
+    if (known.contains(set.node) && !runs.contains(set.node))
+      findings.warning({&root.source, {}}, fmt::format("'{}' does not run: nothing uses what it gives", set.node),
+                       "see `atrium graph` for what runs", {set.note});
 }
 
 void read_seed(const Document& root, Overrides& overrides, Findings& findings, std::uint64_t& seed) {
@@ -119,9 +148,12 @@ LoadResult load_pipeline(const std::filesystem::path& file, const std::vector<Ov
     settle_params(expansion, overrides, findings);
     wire(expansion, findings);
     check_versions(expansion, findings);
-    check_programs(root, expansion, findings);
+    check_programs(expansion, findings);
     check_complete(root, expansion, options, result, findings);
-    if (findings.error_count() == 0) result.pipeline = checked_pipeline(expansion.graph);
+    if (findings.error_count() == 0) {
+      result.pipeline = checked_pipeline(expansion.graph);
+      check_overrides_matter(root, expansion, overrides, result.pipeline, findings);
+    }
   }
   result.errors = findings.errors();
   result.warnings = findings.warnings();

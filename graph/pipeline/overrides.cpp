@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <utility>
+
 #include "graph/pipeline/utf8.hpp"
 
 namespace atrium {
@@ -12,6 +15,17 @@ bool is_yaml(std::string_view value) {
   if (value.size() < 2) return false;
   const char first = value.front(), last = value.back();
   return (first == '[' && last == ']') || ((first == '"' || first == '\'') && last == first);
+}
+
+/// The value that stands in the text. What cannot be read is returned.
+std::optional<YamlProblem> read_value(const std::string& text, YamlNode& node) {
+  node.kind = YamlNode::Kind::scalar;
+  node.text = text;
+  if (!is_yaml(text)) return std::nullopt;
+  YamlTree tree = parse_yaml(text);
+  if (!tree.root || !tree.problems.empty()) return tree.problems.front();
+  node = std::move(*tree.root);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -48,23 +62,19 @@ void Overrides::add(const Override& given, const SourceFile& root, Findings& fin
   parsed.note = "set by " + origin;
   parsed.source = source_of(given.folder);
   YamlNode node;
-  node.kind = YamlNode::Kind::scalar;
-  node.text = value;
   if (given.value) {
     node = *given.value;
-  } else if (is_yaml(value)) {
-    const YamlTree tree = parse_yaml(value);
-    if (!tree.root || !tree.problems.empty()) {
-      fail(fmt::format("'{}' cannot be read: {}", value, tree.problems.front().message), tree.problems.front().help);
-      return;
-    }
-    node = *tree.root;
+  } else if (const auto problem = read_value(value, node)) {
+    fail(fmt::format("'{}' cannot be read: {}", value, problem->message), problem->help);
+    return;
   }
-  if (const std::size_t bad = first_not_text(given.text); bad != std::string::npos && !given.value) {
+  const std::size_t bad = given.value ? std::string::npos : first_not_text(given.text);
+  if (bad != std::string::npos) {
     fail(fmt::format("'{}' is set to text that is not UTF-8: its byte {} is 0x{:02x}", target, bad,
                      static_cast<unsigned char>(given.text[bad])),
          "files name everything in UTF-8: rename the file (convmv does it for many)");
-    return;
+    if (first_not_text(target) != std::string::npos) return;
+    node.text = "?";
   }
   if (value.empty() && !given.value) {
     fail(fmt::format("'{}' is set to nothing", target), "write a value after '='; an empty text is '\"\"'");
@@ -74,6 +84,7 @@ void Overrides::add(const Override& given, const SourceFile& root, Findings& fin
   node.place = {};
   for (auto& item : node.items) item.place = {};
   parsed.setting = read_setting({parsed.name, {}}, node, nowhere, findings);
+  parsed.setting.broken = parsed.setting.broken || bad != std::string::npos;
   auto& same_node = by_node_[parsed.node];
   for (const auto* earlier : same_node) {
     if (earlier->name != parsed.name) continue;

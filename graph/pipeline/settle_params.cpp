@@ -7,6 +7,7 @@
 #include "graph/api/folder_lock.hpp"
 #include "graph/api/suggest.hpp"
 #include "graph/pipeline/expansion.hpp"
+#include "graph/pipeline/utf8.hpp"
 
 namespace atrium {
 namespace {
@@ -171,6 +172,10 @@ class ParamReader {
     }
     const std::filesystem::path full = (base.folder / path).lexically_normal();
     path = full.string();
+    if (first_not_text(path) != std::string::npos)
+      findings_.warning(
+          where, fmt::format("the path of '{}' is not UTF-8: the run's resolved.yaml cannot be run again", info.name),
+          "rename its folder or file (convmv does it for many)", origin);
     std::error_code ignored;
     if (expansion_.any_files || std::filesystem::exists(full, ignored)) return;
     if (const std::string link = broken_link(full); !link.empty()) {

@@ -249,7 +249,10 @@ YamlTree parse_yaml(std::string_view text) {
   std::string unix_text;
   unix_text.reserve(text.size());
   for (std::size_t i = 0; i < text.size(); ++i)
-    if (text[i] != '\r' || i + 1 >= text.size() || text[i + 1] != '\n') unix_text += text[i];
+    if (text[i] != '\r')
+      unix_text += text[i];
+    else if (!text.substr(i + 1).starts_with('\n'))
+      unix_text += '\n';
   YamlTree tree;
   if (!is_clean_text(unix_text, tree)) return tree;
   run_parser(unix_text, tree);

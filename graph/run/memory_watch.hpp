@@ -16,7 +16,7 @@ class MemoryWatch {
   std::optional<std::uint64_t> end(std::size_t node);
   /// Something else takes memory, or gives it back.
   void disturb();
-  /// The process's peak, without what came after the last time when it was begun anew to watch a node.
+  /// Peak resident memory of the process up to the most recent counter reset.
   std::uint64_t peak_before();
 
  private:

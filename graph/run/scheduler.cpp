@@ -302,6 +302,8 @@ void Scheduler::describe(std::size_t n, const std::vector<Value>& outputs) {
       if (options_.hashes || cache_ != nullptr) output.hash = outputs[i].hash(outputs[i].data.get());
     } catch (const std::exception& error) {
       record.warnings.push_back("output '" + port.name + "' could not be hashed: " + error.what());
+    } catch (...) {
+      record.warnings.push_back("output '" + port.name + "' could not be hashed");
     }
     record.outputs.push_back(std::move(output));
   }

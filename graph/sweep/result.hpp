@@ -60,8 +60,8 @@ std::optional<VariantResult> read_result(const std::filesystem::path& folder, co
 
 /// Reads it back; nothing unless the variant was done, by the same build, its input files are the same (inode, size,
 /// times of change of contents and status; of a folder those of all files in it) and the files that it wrote are still
-/// there as they were. A variant with nodes that run every time (`cached = false`) is done when it is done, like any
-/// other: what such a node reads besides its inputs, parameters and files is not looked at.
+/// there as they were. Variants with nodes that run every time (`cached = false`) are reused as well: what such
+/// a node reads besides its inputs, parameters and files is not checked.
 std::optional<VariantResult> reusable_result(const std::filesystem::path& folder, const SweepPlan& plan,
                                              const SweepVariant& variant, const std::string& build);
 

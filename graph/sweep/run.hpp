@@ -31,8 +31,7 @@ struct SweepResult {
 
 /// Runs the variants that are not done yet, nodes that several share once, into OUT/variants/ID. A variant is recorded
 /// (result.json) as soon as its last node is done: a sweep that is killed goes on where it was. A variant that fails
-/// costs the others nothing. Writes table.csv, table.json, table.md
-/// and table.txt. Throws FolderError.
+/// costs the others nothing. Writes table.csv, table.json, table.md and table.txt. Throws FolderError.
 SweepResult run_sweep(const SweepFile& sweep, const SweepPlan& plan, const std::string& build,
                       const SweepOptions& options, ProgressSink& progress);
 

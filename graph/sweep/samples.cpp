@@ -49,7 +49,11 @@ Distribution read_distribution(const YamlNode& node) {
   }
   if (!range.is_sequence() || range.items.empty()) throw shape;
   if (result.kind == Distribution::Kind::choice) {
-    for (const auto& item : range.items) result.choices.push_back(item.text);
+    for (const auto& item : range.items) {
+      if (!item.is_scalar())
+        throw Error("is drawn from a choice that is not a single value", "give each list as a variant under `list:`");
+      result.choices.push_back(item.text);
+    }
     return result;
   }
   if (range.items.size() != 2) throw Error(fmt::format("needs two bounds, not {}", range.items.size()), shape.help());

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "graph/pipeline/find_pipeline.hpp"
+
 namespace atrium {
 namespace {
 
@@ -23,14 +25,16 @@ bool is_shown(const SweepFile& sweep, const SweepVariant& variant) {
   return true;
 }
 
-void set(PipelineNode& node, std::string_view name, const ParamValue& value) {
-  for (std::size_t i = 0; i < node.params.size(); ++i)
-    if (node.type->params[i].name == name) node.params[i] = value;
+YamlNode scalar(const std::string& text) {
+  YamlNode node{YamlNode::Kind::scalar};
+  node.text = text;
+  node.quoted = true;
+  return node;
 }
 
-PipelineNode make_node(const std::string& path, const NodeType& type) {
-  PipelineNode node{path, &type};
-  for (const auto& param : type.params) node.params.push_back(param.initial);
+YamlNode list(const std::vector<std::string>& texts) {
+  YamlNode node{YamlNode::Kind::sequence};
+  for (const auto& text : texts) node.items.push_back(scalar(text));
   return node;
 }
 
@@ -41,36 +45,32 @@ std::vector<std::string> write_sheets(const SweepFile& sweep, const SweepPlan& p
                                       const SweepOptions& options) {
   std::vector<std::string> problems;
   if (sweep.sheets.empty()) return problems;
-  const NodeType* read = registry.find("render.read_pictures");
-  const NodeType* sheet_type = registry.find("render.contact_sheet");
-  if (read == nullptr || sheet_type == nullptr)
-    return {"the sweep's pictures need the plugin 'render', which is not there"};
+  const std::filesystem::path out = std::filesystem::absolute(options.out);
   for (const auto& sheet : sweep.sheets) {
     std::vector<std::string> files;
     std::vector<std::string> captions;
     for (std::size_t v = 0; v < results.size(); ++v) {
       if (!is_shown(sweep, plan.variants[v])) continue;
-      files.push_back(
-          (std::filesystem::absolute(options.out) / "variants" / plan.variants[v].id / sheet.picture).string());
+      files.push_back((out / "variants" / plan.variants[v].id / sheet.picture).string());
       captions.push_back(caption_of(sweep, plan.variants[v]) + (results[v].status == VariantStatus::ok
                                                                     ? ""
                                                                     : ": " + std::string(name_of(results[v].status))));
     }
-    Pipeline pipeline;
-    PipelineNode reader = make_node("read", *read);
-    set(reader, "files", files);
-    set(reader, "captions", captions);
-    PipelineNode writer = make_node("sheet", *sheet_type);
-    set(writer, "path", sheet.file);
-    set(writer, "columns", columns_of(sweep, sheet));
-    set(writer, "cell_width", sheet.cell_width);
-    writer.folder = std::filesystem::absolute(options.out);
-    const std::size_t from = add_node(reader, pipeline);
-    connect({from, 0}, add_node(writer, pipeline), 0, 0, pipeline);
+    const std::string columns = std::to_string(columns_of(sweep, sheet)), width = std::to_string(sheet.cell_width);
+    LoadResult made = load_pipeline(installed_pipelines() / "sheet.yaml",
+                                    {{"files=", {}, {}, list(files)},
+                                     {"captions=", {}, {}, list(captions)},
+                                     {"path=", {}, {}, scalar(sheet.file)},
+                                     {"columns=" + columns, {}, {}},
+                                     {"cell_width=" + width, {}, {}}},
+                                    registry);
+    for (const auto& error : made.errors) problems.push_back(fmt::format("{}: {}", sheet.file, to_string(error)));
+    if (!made.errors.empty()) continue;
+    for (const std::size_t n : all_nodes(made.pipeline)) made.pipeline[n].folder = out;
     RunOptions run_options;
     run_options.threads = options.threads;
     ProgressSink silent;
-    for (const auto& failure : run_pipeline(pipeline, run_options, silent).failures)
+    for (const auto& failure : run_pipeline(made.pipeline, run_options, silent).failures)
       problems.push_back(fmt::format("{}: {}", sheet.file, failure.message));
   }
   return problems;

@@ -50,6 +50,11 @@ SweepFolder::SweepFolder(const fs::path& folder, const SweepFile& sweep) {
     throw FolderError(folder.string() + " is not empty and is not the folder of a sweep",
                       "choose another folder with --out, or empty it");
   lock(folder, FolderLock::Kind::alone);
+  // Nobody else writes here: what is not finished is of a process that was killed.
+  std::vector<fs::path> unfinished;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, error))
+    if (!name_of_unfinished(entry.path().filename().string()).empty()) unfinished.push_back(entry.path());
+  for (const auto& file : unfinished) fs::remove(file, error);
   write_file(folder / sweep_mark, sweep_json(sweep));
 }
 

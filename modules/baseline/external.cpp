@@ -181,7 +181,7 @@ Mesh read_output(const std::string& file, const std::string& program, Context& i
     throw Error(fmt::format("{} ended well but wrote no output", program),
                 "it must write a mesh to the file that {output} stands for, in the format of 'output'");
   try {
-    return io::ReadMesh::run({}, {{file}, 1}, inner).mesh;
+    return io::ReadMesh::run({{file}, 1}, inner).mesh;
   } catch (const Error& error) {
     throw Error(fmt::format("the output of {} cannot be read: {}", program, error.what()), error.help());
   }

@@ -16,17 +16,24 @@ constexpr double gap = 24;     // between faces
 constexpr double line_height = 13;
 constexpr double narrowest = 190;  // room for the captions
 
-std::string escaped(const std::string& text) {
+/// UTF-8 as the text of an XML element: what XML cannot hold (control characters, U+FFFE and U+FFFF) is a blank.
+std::string escaped(std::string_view text) {
   std::string result;
-  for (const char c : text) {
-    if (c == '&')
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::string_view three = text.substr(i, 3);
+    if (text[i] == '&')
       result += "&amp;";
-    else if (c == '<')
+    else if (text[i] == '<')
       result += "&lt;";
-    else if (static_cast<unsigned char>(c) < 0x20)
+    else if (text[i] == '>')
+      result += "&gt;";
+    else if (static_cast<unsigned char>(text[i]) < 0x20)
       result += ' ';
-    else
-      result += c;
+    else if (three == "\xEF\xBF\xBE" || three == "\xEF\xBF\xBF") {
+      result += ' ';
+      i += 2;
+    } else
+      result += text[i];
   }
   return result;
 }

@@ -108,7 +108,7 @@ void WriteGeojson::run(const In& in, const Params& params, Context& context) {
   if (in.plan->storeys.empty()) context.warn("the plan is empty: " + params.path.path + " has no features");
   Json root{{"type", "FeatureCollection"},
             {"name", params.crs.empty() ? "floor plan (local coordinates, not WGS 84)" : "floor plan"},
-            {"coordinates", "metres in the frame of the scan: x, y"}};
+            {"frame", "metres in the frame of the scan: x, y"}};
   if (!params.crs.empty()) root["crs"] = {{"type", "name"}, {"properties", {{"name", params.crs}}}};
   root["features"] = features.take();
   const auto path = context.output(params.path.path);

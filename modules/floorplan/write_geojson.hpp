@@ -15,8 +15,8 @@ namespace atrium::floorplan {
 /// at the end. Coordinates are metres in the frame of the plan, rounded to a tenth of a millimetre, with their true
 /// offsets (easting and northing of a georeferenced scan). RFC 7946 expects longitude and latitude in WGS 84: these are
 /// not, unless `crs` names their system (in the member "crs" of GeoJSON 2008, which most programs still read); the
-/// collection's "name" and "coordinates" say so too. Where a height, an elevation or a confidence is not known it is
-/// null.
+/// collection's "name" and "frame" say so too. All else is by RFC 7946. Where a height, an elevation or a confidence is
+/// not known it is null.
 ///
 /// A plan without storeys gives an empty collection, and a warning. Errors: a folder that cannot be written; then no
 /// file is there.

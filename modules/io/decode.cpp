@@ -200,6 +200,8 @@ Mesh decode_mesh(const RawGeometry& geometry, double scale, const Context& conte
         [&](std::size_t i) { good[i] = 0; });
   });
   decode_colours(geometry, mesh.colours, context);
+  std::vector<std::array<std::uint32_t, 3>> triangles = geometry.triangles;
+  cut_concave_faces(mesh.vertices, geometry.fans, triangles);
 
   // Bad vertices go, and the triangles on them.
   std::vector<std::uint32_t> place(geometry.count);
@@ -215,7 +217,7 @@ Mesh decode_mesh(const RawGeometry& geometry, double scale, const Context& conte
   if (!mesh.colours.empty()) mesh.colours.resize(kept);
   mesh.triangles.reserve(geometry.triangles.size());
   for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
-    const auto& [a, b, c] = geometry.triangles[t];
+    const auto& [a, b, c] = triangles[t];
     if (good[a] == 0 || good[b] == 0 || good[c] == 0) continue;
     mesh.triangles.push_back({place[a], place[b], place[c]});
     if (!geometry.classes.empty()) mesh.classes.push_back(class_of(geometry.classes[t]));

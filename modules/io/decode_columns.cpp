@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "graph/api/error.hpp"
 
@@ -62,9 +63,14 @@ void decode_packed(const RawGeometry& geometry, std::vector<Colour>& colours, co
 struct ColourValues {
   double largest = 0;
   std::size_t positive = 0, fractions = 0, above_one = 0, above_byte = 0;  ///< fractions: between 0 and 1
+  std::size_t uneven = 0;                                                  ///< no whole numbers
+  std::size_t lacking = 0, below = 0;                                      ///< not finite; negative
 
   void add(double v) {
+    lacking += std::isfinite(v) ? 0 : 1;
+    below += v < 0 ? 1 : 0;
     if (!(v > 0) || !std::isfinite(v)) return;
+    uneven += v == std::floor(v) ? 0 : 1;
     largest = std::max(largest, v);
     ++positive;
     fractions += v < 1 ? 1 : 0;
@@ -77,6 +83,9 @@ struct ColourValues {
     fractions += other.fractions;
     above_one += other.above_one;
     above_byte += other.above_byte;
+    uneven += other.uneven;
+    lacking += other.lacking;
+    below += other.below;
   }
   /// Whether what lies above a range's top is but an overshoot: not beyond `most`, or one value in a hundred.
   bool is_few(std::size_t above, double most) const {
@@ -92,20 +101,25 @@ double colour_factor(const RawGeometry& geometry, const Context& context) {
   bool floating = false;
   for (const Role role : colour_roles) {
     const Column& column = geometry.column(role);
-    floating = floating || is_floating(column.type);
+    floating = floating || (is_floating(column.type) && !column.whole);
     context.parallel_chunks(geometry.count, chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
       each_number(column, begin, end, [&](std::size_t, double v) { some[c].add(v); });
     });
   }
   ColourValues all;
   for (const auto& part : some) all.add(part);
+  if (all.lacking + all.below > 0)
+    context.warn(fmt::format("{}: {} of the colours' values are empty, not finite or negative: they are taken for 0",
+                             geometry.path, all.lacking + all.below));
   const auto cut = [&](double top, std::size_t above) {
     if (above > 0)
       context.warn(fmt::format("{}: {} of the colours' values are above {:g}, the largest is {:g}: they are cut to it",
                                geometry.path, above, top, all.largest));
   };
   // A few values above the top, as filters and interpolation make them, do not say another range.
-  if (floating && (all.largest <= 1.0 || (all.fractions > all.above_one && all.is_few(all.above_one, 2.0)))) {
+  constexpr double few_ones = 4;  // no picture is so dark that bytes do not exceed it
+  if (floating && (all.largest <= 1.0 || (all.uneven > 0 && all.largest <= few_ones) ||
+                   (all.fractions > all.above_one && all.is_few(all.above_one, 2.0)))) {
     cut(1, all.above_one);
     return 255.0;
   }
@@ -113,6 +127,9 @@ double colour_factor(const RawGeometry& geometry, const Context& context) {
     cut(255, all.above_byte);
     return 1.0;
   }
+  if (all.largest > 65535.0)
+    context.warn(
+        fmt::format("{}: colours up to {:g}, more than 16 bits hold: they are cut", geometry.path, all.largest));
   return 255.0 / 65535.0;
 }
 
@@ -189,15 +206,17 @@ void decode_colours(const RawGeometry& geometry, std::vector<Colour>& colours, c
 void decode_intensities(const RawGeometry& geometry, std::vector<float>& intensities, const Context& context) {
   if (!geometry.column(Role::intensity)) return;
   intensities.resize(geometry.count);
-  context.parallel_for(
-      geometry.count,
-      [&](std::size_t begin, std::size_t end) {
-        each_number(geometry.column(Role::intensity), begin, end, [&](std::size_t i, double v) {
-          constexpr double most = std::numeric_limits<float>::max();
-          intensities[i] = std::abs(v) <= most ? static_cast<float>(v) : 0.0F;
-        });
-      },
-      chunk);
+  std::vector<std::size_t> lacking((geometry.count + chunk - 1) / chunk);
+  context.parallel_chunks(geometry.count, chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    each_number(geometry.column(Role::intensity), begin, end, [&](std::size_t i, double v) {
+      constexpr double most = std::numeric_limits<float>::max();
+      const bool good = std::abs(v) <= most;
+      intensities[i] = good ? static_cast<float>(v) : 0.0F;
+      lacking[c] += good ? 0 : 1;
+    });
+  });
+  if (const auto all = std::accumulate(lacking.begin(), lacking.end(), std::size_t{0}); all > 0)
+    context.warn(fmt::format("{}: {} intensities are empty or not finite: they are taken for 0", geometry.path, all));
 }
 
 void decode_source(const RawGeometry& geometry, std::vector<std::uint16_t>& source, const Context& context) {
@@ -220,16 +239,18 @@ void decode_source(const RawGeometry& geometry, std::vector<std::uint16_t>& sour
 void decode_labels(const RawGeometry& geometry, std::vector<std::int32_t>& labels, const Context& context) {
   if (!geometry.column(Role::label)) return;
   labels.resize(geometry.count);
-  context.parallel_for(
-      geometry.count,
-      [&](std::size_t begin, std::size_t end) {
-        each_number(geometry.column(Role::label), begin, end, [&](std::size_t i, double v) {
-          constexpr double low = std::numeric_limits<std::int32_t>::min();
-          constexpr double high = std::numeric_limits<std::int32_t>::max();
-          labels[i] = std::isnan(v) ? -1 : static_cast<std::int32_t>(std::clamp(std::round(v), low, high));
-        });
-      },
-      chunk);
+  std::vector<std::size_t> odd((geometry.count + chunk - 1) / chunk);
+  context.parallel_chunks(geometry.count, chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    each_number(geometry.column(Role::label), begin, end, [&](std::size_t i, double v) {
+      constexpr double low = std::numeric_limits<std::int32_t>::min();
+      constexpr double high = std::numeric_limits<std::int32_t>::max();
+      const double label = std::isnan(v) ? -1 : std::clamp(std::round(v), low, high);
+      labels[i] = static_cast<std::int32_t>(label);
+      odd[c] += label == v || std::isnan(v) ? 0 : 1;
+    });
+  });
+  if (const auto all = std::accumulate(odd.begin(), odd.end(), std::size_t{0}); all > 0)
+    context.warn(fmt::format("{}: {} labels are no whole numbers of 32 bits: they are rounded", geometry.path, all));
 }
 
 }  // namespace atrium::io

@@ -15,6 +15,7 @@ void FaceList::add(const std::vector<std::uint32_t>& corners, const std::array<b
     ++skipped;
     return;
   }
+  if (corners.size() > 3) fans.push_back({triangles.size(), corners.size()});
   for (std::size_t k = 2; k < corners.size(); ++k) {
     triangles.push_back({corners[0], corners[k - 1], corners[k]});
     for (std::size_t a = 0; a < 3; ++a)
@@ -44,6 +45,7 @@ void FaceList::join(std::vector<FaceList>& pieces, RawGeometry& geometry) {
   for (const auto& piece : pieces) total += piece.triangles.size();
   geometry.triangles.reserve(total);
   for (auto& piece : pieces) {
+    for (const FaceFan& fan : piece.fans) geometry.fans.push_back({geometry.triangles.size() + fan.first, fan.corners});
     geometry.triangles.insert(geometry.triangles.end(), piece.triangles.begin(), piece.triangles.end());
     for (std::size_t a = 0; a < 3; ++a)
       to[a]->insert(to[a]->end(), piece.attributes[a].begin(), piece.attributes[a].end());

@@ -17,6 +17,7 @@ struct FaceList {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::array<std::vector<std::int32_t>, 3> attributes;  ///< class, storey, primitive: per triangle, or empty
   std::size_t skipped = 0;                              ///< faces of fewer than three corners
+  std::vector<FaceFan> fans;                            ///< faces of more than three
 
   /// Adds a polygon as a fan of triangles. values: its attributes, where the file has them.
   void add(const std::vector<std::uint32_t>& corners, const std::array<bool, 3>& has,

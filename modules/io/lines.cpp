@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t piece_size = std::size_t{1} << 20U;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
-bool is_separator(char c) { return is_space(c) || c == ',' || c == ';'; }
 
 bool is_row(std::string_view line, bool comments) {
   std::size_t i = 0;
@@ -117,7 +116,10 @@ Row Lines::row(std::size_t index) const {
   return found;
 }
 
-std::string_view next_token(std::string_view& text) {
+std::string_view next_token(std::string_view& text, Commas commas) {
+  const auto is_separator = [&](char c) {
+    return is_space(c) || (commas == Commas::separate && (c == ',' || c == ';'));
+  };
   std::size_t begin = 0;
   while (begin < text.size() && is_separator(text[begin])) ++begin;
   std::size_t end = begin;
@@ -138,9 +140,18 @@ bool parse_number(std::string_view token, double& value) {
   if (error != std::errc{}) return false;
   if (stop == end) return true;
   // Old Windows programs write what is not finite as "1.#QNAN", "-1.#IND", "1.#INF".
-  if (*stop != '#' || token.size() > 16) return false;
+  constexpr std::string_view words[] = {"#qnan", "#snan", "#ind", "#inf"};
+  const std::string word = lower_case(std::string_view(stop, static_cast<std::size_t>(end - stop)));
+  if (token.size() > 16 ||
+      std::none_of(std::begin(words), std::end(words), [&](auto known) { return word.starts_with(known); }))
+    return false;
   value = std::numeric_limits<double>::quiet_NaN();
   return true;
+}
+
+std::string no_number(std::string_view token) {
+  const bool comma = std::count(token.begin(), token.end(), ',') == 1;
+  return quote(token) + " is not a number" + (comma ? " (decimals follow a point, as in 1.5)" : "");
 }
 
 std::string quote(std::string_view text) {

@@ -73,11 +73,14 @@ class Lines {
   std::vector<Piece> pieces_;
 };
 
-/// Takes the next token, delimited by blanks, commas and semicolons; empty at the end.
-std::string_view next_token(std::string_view& text);
+/// Takes the next token, delimited by blanks (and, if they separate, commas and semicolons); empty at the end.
+enum class Commas : bool { belong, separate };
+std::string_view next_token(std::string_view& text, Commas commas = Commas::belong);
 
 /// Reads the whole token as a decimal number, "nan" and "inf" included. False if it is none.
 bool parse_number(std::string_view token, double& value);
+/// "'abc' is not a number", with what is meant probably.
+std::string no_number(std::string_view token);
 
 /// " 'abc'" shortened and with unprintable bytes replaced, for messages.
 std::string quote(std::string_view text);

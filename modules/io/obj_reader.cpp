@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <optional>
 
 #include "graph/api/error.hpp"
@@ -71,7 +72,7 @@ class PieceParser {
   double number(std::string_view token) const {
     double v = 0;
     if (token.empty()) fail("the line ends before its third number");
-    if (!parse_number(token, v)) fail(quote(token) + " is not a number");
+    if (!parse_number(token, v)) fail(no_number(token));
     return v;
   }
   Eigen::Vector3d vector(std::string_view& rest) const {
@@ -89,6 +90,7 @@ class PieceParser {
       if (n == more.size()) fail("a vertex of more than seven numbers");
       more[n++] = number(token);
     }
+    if ((n == 1 || n == 4) && more[0] != 0 && std::isfinite(more[0])) piece_.vertices.back() /= more[0];
     if (n < 3) return;
     piece_.colours.resize(piece_.vertices.size() - 1);
     piece_.colours.push_back({more[n - 3], more[n - 2], more[n - 1]});
@@ -96,6 +98,7 @@ class PieceParser {
   }
 
   static bool whole(std::string_view text, std::int64_t& value) {
+    if (text.starts_with('+')) text.remove_prefix(1);
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc{} && stop == text.data() + text.size() && value != 0;
   }

@@ -68,8 +68,7 @@ class PcdHeaderParser {
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
     if (values.size() != 7) lines_.fail("VIEWPOINT has 7 numbers: tx ty tz qw qx qy qz");
     for (std::size_t a = 0; a < 3; ++a)
-      if (!parse_number(values[a], place[static_cast<Eigen::Index>(a)]))
-        lines_.fail(quote(values[a]) + " is not a number");
+      if (!parse_number(values[a], place[static_cast<Eigen::Index>(a)])) lines_.fail(no_number(values[a]));
     header_.viewpoint = place;
   }
 

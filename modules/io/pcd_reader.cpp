@@ -74,6 +74,7 @@ void read_compressed(const MappedFile& file, const PcdHeader& header, RawGeometr
 double packed_bits(double value, Scalar type) {
   constexpr double most = 4294967295.0;
   if (value < 0 && value >= -2147483648.0 && value == std::floor(value)) value += most + 1;  // opaque, as an i32
+  if (!std::isfinite(value)) return 0;  // as some programs write points without a colour
   const bool whole = value >= 1 && value <= most && value == std::floor(value);
   if (whole) return value;
   return type == Scalar::f32 ? std::bit_cast<std::uint32_t>(static_cast<float>(value)) : 0.0;
@@ -90,7 +91,7 @@ void read_row(const MappedFile& file, const PcdHeader& header, const std::vector
       if (token.empty())
         throw Error(fmt::format("{}:{}: the line ends before '{}'", file.path(), row.line, field.name));
       if (!parse_number(token, v))
-        throw Error(fmt::format("{}:{}: {} is not a number ('{}')", file.path(), row.line, quote(token), field.name));
+        throw Error(fmt::format("{}:{}: {} ('{}')", file.path(), row.line, no_number(token), field.name));
       if (roles[f] != Role::none) *to++ = roles[f] == Role::packed_colour ? packed_bits(v, field.type) : v;
     }
   }
@@ -117,6 +118,8 @@ void read_rows(const MappedFile& file, std::string_view text, const PcdHeader& h
   lines.for_rows(0, header.points, context,
                  [&](std::size_t, const Row& row) { read_row(file, header, roles, row, table->row(row.index)); });
   Table::attach(std::move(table), geometry);
+  for (std::size_t f = 0; f < roles.size(); ++f)
+    if (roles[f] != Role::none) geometry.column(roles[f]).whole = !is_floating(header.fields[f].type);
 }
 
 /// The points with one a line, if they are broken into lines in another way.

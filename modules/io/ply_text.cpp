@@ -23,7 +23,7 @@ class RowReader {
     if (token.empty())
       fail(fmt::format("{} has {} properties, but the line ends before '{}'", element_.name, element_.properties.size(),
                        property.name));
-    if (!parse_number(token, v)) fail(quote(token) + " is not a number ('" + property.name + "')");
+    if (!parse_number(token, v)) fail(no_number(token) + " ('" + property.name + "')");
     return v;
   }
   /// The length of a list, at most what the line can hold.
@@ -75,6 +75,8 @@ struct TextBody {
       reader.finish();
     });
     Table::attach(std::move(table), geometry);
+    for (std::size_t p = 0; p < roles.size(); ++p)
+      if (roles[p] != Role::none) geometry.column(roles[p]).whole = !is_floating(element.properties[p].type);
   }
 
   /// Faces, or strips of triangles.
@@ -147,6 +149,19 @@ struct TextBody {
   }
 };
 
+/// Whether two texts have as many lines that are not blank.
+bool same_lines(std::string_view a, std::string_view b) {
+  const auto count = [](std::string_view text) {
+    std::size_t lines = 0;
+    for_lines(text, [&](std::string_view line) {
+      lines += line.find_first_not_of(" \t") == std::string_view::npos ? 0 : 1;
+      return true;
+    });
+    return lines;
+  };
+  return count(a) == count(b);
+}
+
 void read_lines(const MappedFile& file, std::string_view text, const PlyHeader& header, RawGeometry& geometry,
                 const Context& context) {
   const Lines lines(text, header.lines + 1, false, context);
@@ -182,6 +197,7 @@ void read_ply_text(const MappedFile& file, const PlyHeader& header, RawGeometry&
   } catch (const Error&) {
     const auto other = one_record_a_line(text, header);
     if (!other) throw;
+    if (same_lines(*other, text)) throw;
     geometry = before;
     try {
       read_lines(file, *other, header, geometry, context);

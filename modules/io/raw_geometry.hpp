@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "modules/io/concave_faces.hpp"
 #include "modules/io/scalar.hpp"
 
 namespace atrium::io {
@@ -42,6 +43,7 @@ struct Column {
   std::size_t stride = 0;           ///< bytes from one to the next
   Scalar type = Scalar::none;
   bool swapped = false;  ///< in the other byte order than this machine's
+  bool whole = false;    ///< the file declares whole numbers, be they stored as others here
   explicit operator bool() const { return data != nullptr; }
 };
 
@@ -57,6 +59,7 @@ struct RawGeometry {
   std::optional<double> metres_per_unit;      ///< if the format or the file says it
   std::string crs;                            ///< coordinate reference system as Cloud has it
   std::vector<std::array<std::uint32_t, 3>> triangles;     ///< every index below `count`
+  std::vector<FaceFan> fans;                               ///< triangles that are one face together
   std::vector<std::int32_t> classes, storeys, primitives;  ///< per triangle, or empty
   std::size_t skipped_faces = 0;                           ///< faces of fewer than three corners
   std::optional<Eigen::Vector3d> viewpoint;                ///< sensor's place if the file states one, in its units

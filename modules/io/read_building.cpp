@@ -7,7 +7,7 @@
 
 namespace atrium::io {
 
-ReadBuilding::Out ReadBuilding::run(const In& /*in*/, const Params& params, Context& context) {
+ReadBuilding::Out ReadBuilding::run(const Params& params, Context& context) {
   const JsonFile file(params.path.path);
   auto [building, up] = building_from_json(file.root());
   if (building.rooms.empty()) context.warn(params.path.path + ": there is no room in it");

@@ -15,7 +15,6 @@ namespace atrium::io {
 struct ReadBuilding {
   static constexpr std::string_view type = "io.read_building";
   static constexpr std::string_view summary = "Reads a building from JSON, as io.write_building writes it.";
-  struct In {};
   struct Out {
     Building building;
     Transform transform;
@@ -23,11 +22,10 @@ struct ReadBuilding {
   struct Params {
     InputPath path;
   };
-  static constexpr auto inputs = std::tuple{};
   static constexpr auto outputs = std::tuple{port<&Out::building>("Closed rooms, z up."),
                                              port<&Out::transform>("From the file's frame to that of the building.")};
   static constexpr auto params = std::tuple{param<&Params::path>("The JSON file.")};
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& params, Context& context);
 };
 
 }  // namespace atrium::io

@@ -32,7 +32,7 @@ void refuse_geometry(const std::string& path) {
 
 }  // namespace
 
-ReadLayout::Out ReadLayout::run(const In& /*in*/, const Params& params, Context& context) {
+ReadLayout::Out ReadLayout::run(const Params& params, Context& context) {
   const std::string& path = params.path.path;
   refuse_geometry(path);
   const JsonFile file(path);

@@ -27,7 +27,6 @@ struct ReadLayout {
   static constexpr std::string_view type = "io.read_layout";
   static constexpr std::string_view summary =
       "Reads known rooms and faces: truth.json, a headset's layout, room corners.";
-  struct In {};
   struct Out {
     GroundTruth truth;
     FloorPlan plan;
@@ -36,12 +35,11 @@ struct ReadLayout {
   struct Params {
     InputPath path;
   };
-  static constexpr auto inputs = std::tuple{};
   static constexpr auto outputs =
       std::tuple{port<&Out::truth>("Faces, rooms and openings."), port<&Out::plan>("The rooms, seen from above."),
                  port<&Out::mesh>("The faces as triangles.")};
   static constexpr auto params = std::tuple{param<&Params::path>("The JSON file.")};
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& params, Context& context);
 };
 
 }  // namespace atrium::io

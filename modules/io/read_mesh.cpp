@@ -5,7 +5,7 @@
 
 namespace atrium::io {
 
-ReadMesh::Out ReadMesh::run(const In& /*in*/, const Params& params, Context& context) {
+ReadMesh::Out ReadMesh::run(const Params& params, Context& context) {
   const RawGeometry geometry = read_geometry(params.path.path, context);
   Mesh mesh = decode_mesh(geometry, params.scale, context);
   warn_of_lost_digits(geometry, mesh.origin, params.scale, context);

@@ -15,7 +15,6 @@ namespace atrium::io {
 struct ReadMesh {
   static constexpr std::string_view type = "io.read_mesh";
   static constexpr std::string_view summary = "Reads a triangle mesh from a file.";
-  struct In {};
   struct Out {
     Mesh mesh;
   };
@@ -23,13 +22,12 @@ struct ReadMesh {
     InputPath path;
     double scale = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
   static constexpr auto outputs = std::tuple{port<&Out::mesh>("The mesh, in the file's frame, in metres.")};
   static constexpr auto params = std::tuple{
       param<&Params::path>("The file: .ply, .obj, .stl."),
       param<&Params::scale>(unitless, within(1e-9, 1e9),
                             "Factor from the file's unit to metres: 0.001 for millimetres, 0.3048 for feet.")};
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& params, Context& context);
 };
 
 }  // namespace atrium::io

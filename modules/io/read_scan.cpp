@@ -29,7 +29,7 @@ std::optional<Eigen::Vector3d> viewpoint_of(const RawGeometry& geometry, const C
   context.warn(
       geometry.path +
       ": seen from zero, the viewpoint in the file, its points are no image: they may be in the frame of a map. "
-      "Where the scanner stood is taken to be not known; -s scan.sensor=origin puts it at zero");
+      "Where the scanner stood is taken to be not known; the parameter `sensor: origin` puts it at zero");
   return std::nullopt;
 }
 
@@ -152,7 +152,7 @@ Cloud sample(const RawGeometry& geometry, const ReadScan::Params& params, double
 
 }  // namespace
 
-ReadScan::Out ReadScan::run(const In& /*in*/, const Params& params, Context& context) {
+ReadScan::Out ReadScan::run(const Params& params, Context& context) {
   const std::string& path = params.path.path;
   const RawGeometry geometry = read_geometry(path, context);
   const bool sampled = params.mesh == MeshUse::sample && !geometry.triangles.empty();

@@ -43,7 +43,6 @@ struct ReadScan {
   enum class MeshUse { sample, vertices };
   enum class SensorUse { automatic, origin, none };
   enum class Unit { automatic, metre, centimetre, millimetre, inch, foot };
-  struct In {};
   struct Out {
     Cloud cloud;
   };
@@ -57,7 +56,6 @@ struct ReadScan {
     SensorUse sensor = SensorUse::automatic;
     double voxel = 0;
   };
-  static constexpr auto inputs = std::tuple{};
   static constexpr auto outputs = std::tuple{port<&Out::cloud>("The points, in the file's frame, in metres.")};
   static constexpr auto params = std::tuple{
       param<&Params::path>(
@@ -93,7 +91,7 @@ struct ReadScan {
           metres, within(0, 100),
           "Edge of the voxels that points are joined in while they are read; 0: all points are kept. Not for meshes "
           "that are sampled.")};
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& params, Context& context);
 };
 
 }  // namespace atrium::io

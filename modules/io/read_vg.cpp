@@ -140,7 +140,7 @@ void report(const std::string& path, const Counts& counts, const Context& contex
 
 }  // namespace
 
-ReadVg::Out ReadVg::run(const In& /*in*/, const Params& params, Context& context) {
+ReadVg::Out ReadVg::run(const Params& params, Context& context) {
   const std::string& path = params.path.path;
   const MappedFile mapped(path);
   if (mapped.size() == 0) throw Error(path + ": the file is empty");

@@ -18,7 +18,6 @@ namespace atrium::io {
 struct ReadVg {
   static constexpr std::string_view type = "io.read_vg";
   static constexpr std::string_view summary = "Reads planar primitives from a vertex group file.";
-  struct In {};
   struct Out {
     PlanePrimitives planes;
   };
@@ -26,14 +25,13 @@ struct ReadVg {
     InputPath path;
     double scale = 1.0;
   };
-  static constexpr auto inputs = std::tuple{};
   static constexpr auto outputs =
       std::tuple{port<&Out::planes>("The primitives with their cloud, in the file's frame, in metres.")};
   static constexpr auto params = std::tuple{
       param<&Params::path>("The file: .vg (text) or .bvg (binary)."),
       param<&Params::scale>(unitless, within(1e-9, 1e9),
                             "Factor from the file's unit to metres: 0.001 for millimetres, 0.3048 for feet.")};
-  static Out run(const In& in, const Params& params, Context& context);
+  static Out run(const Params& params, Context& context);
 };
 
 }  // namespace atrium::io

@@ -120,12 +120,18 @@ class TextParser {
       if (numbers_left_ > 0 && read_number(token)) continue;
       std::string keyword = lower_case(token);
       if (keyword == "end") keyword += lower_case(next_token(text));  // "end loop"
-      if (keyword == "endsolid" || keyword == "solid") {
+      if (keyword == "endsolid" || keyword == "solid") {              // its name follows
         ended_ = keyword == "endsolid";
-        return;  // its name follows
+        while (!text.empty() && !begins_with_facet(text)) next_token(text);
+        continue;
       }
       read_keyword(keyword);
     }
+  }
+
+  static bool begins_with_facet(std::string_view text) {
+    const std::string first = lower_case(next_token(text));
+    return first == "facet" && lower_case(next_token(text)) == "normal";
   }
 
   /// A number of a normal, which is not looked at, or of a vertex. False if a normal ends early.
@@ -136,7 +142,7 @@ class TextParser {
     }
     --numbers_left_;
     if (!in_vertex_) return true;
-    if (!parse_number(token, corner_[2 - numbers_left_])) fail(quote(token) + " is not a number");
+    if (!parse_number(token, corner_[2 - numbers_left_])) fail(no_number(token));
     if (numbers_left_ > 0) return true;
     corners_.push_back(welder_.add(corner_));
     in_vertex_ = false;

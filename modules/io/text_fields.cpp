@@ -52,7 +52,11 @@ bool next_field(std::string_view& line, const TextDialect& dialect, std::string_
     line.remove_prefix(end);
   } else {
     if (line.data() == nullptr) return false;
-    const std::size_t end = std::min(line.find(dialect.separator), line.size());
+    // Separators within quotes are part of the field.
+    const std::size_t first = std::min(line.find_first_not_of(" \t"), line.size());
+    const std::size_t quoted = line.substr(first).starts_with('"') ? line.find('"', first + 1) : std::string_view::npos;
+    const std::size_t end =
+        std::min(line.find(dialect.separator, quoted == std::string_view::npos ? 0 : quoted), line.size());
     field = trimmed_field(line.substr(0, end));
     if (end == line.size())
       line = {};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "graph/api/error.hpp"
 
@@ -17,8 +18,36 @@ const char* const columns_help =
 
 Fields tokens_of(std::string_view line) {
   Fields all;
-  for (auto t = next_token(line); !t.empty(); t = next_token(line)) all.push_back(t);
+  const auto next = [&] { return next_token(line, Commas::separate); };
+  for (auto t = next(); !t.empty() && (all.empty() || !t.starts_with('#')); t = next()) all.push_back(t);
   return all;
+}
+
+/// The fields of a row, without a comment behind its numbers.
+Fields row_fields(std::string_view line, const TextDialect& dialect) {
+  constexpr std::size_t least = 3;
+  Fields fields = fields_of(line, dialect);
+  const auto comment = std::find_if(fields.begin() + static_cast<std::ptrdiff_t>(std::min(least, fields.size())),
+                                    fields.end(), [](std::string_view f) { return f.starts_with('#'); });
+  double value = 0;
+  if (std::all_of(fields.begin(), comment, [&](std::string_view f) { return parse_field(f, dialect, value); }))
+    fields.erase(comment, fields.end());
+  return fields;
+}
+
+/// The same where a surveyor's names say which are x, y and z: easting, northing, elevation. Empty if they do not.
+std::vector<Role> surveyors_roles(const Fields& names, std::vector<Role> roles) {
+  constexpr std::pair<std::string_view, Role> known[] = {
+      {"easting", Role::x},   {"east", Role::x},   {"northing", Role::y}, {"north", Role::y},
+      {"elevation", Role::z}, {"height", Role::z}, {"altitude", Role::z}};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string name = lower_case(names[i].substr(0, names[i].find_first_of("[( ")));
+    for (const auto& [text, role] : known)
+      if (roles[i] == Role::none && text == name && std::find(roles.begin(), roles.end(), role) == roles.end())
+        roles[i] = role;
+  }
+  const auto has = [&](Role role) { return std::find(roles.begin(), roles.end(), role) != roles.end(); };
+  return has(Role::x) && has(Role::y) && has(Role::z) ? roles : std::vector<Role>{};
 }
 
 /// The roles if the fields name the columns, with x, y and z among them; else empty.
@@ -34,7 +63,8 @@ std::vector<Role> named_roles(const Fields& names) {
     roles.push_back(role);
     if (role <= Role::z) position[static_cast<std::size_t>(role)] = true;
   }
-  return position[0] && position[1] && position[2] ? roles : std::vector<Role>{};
+  if (position[0] && position[1] && position[2]) return roles;
+  return surveyors_roles(names, std::move(roles));
 }
 
 /// The same for a line of names, by the dialect of the rows or by any separator, for so many columns if it can be.
@@ -109,7 +139,8 @@ class SampledRows {
   std::vector<double> numbers_;
 };
 
-bool is_byte(double v) { return v >= 0 && v <= 255 && v == std::floor(v); }
+bool is_byte(double v) { return std::isnan(v) || (v >= 0 && v <= 255 && v == std::floor(v)); }
+bool is_share(double v) { return std::isnan(v) || (v >= 0 && v <= 1); }
 bool is_small_label(double v) { return v >= 0 && v <= 40 && v == std::floor(v); }
 
 /// Roles of columns without names, from column `c` on, which are all that are left; empty if they cannot be told.
@@ -122,16 +153,28 @@ std::vector<Role> roles_by_count(const SampledRows& rows, std::size_t width, std
       if (rows.are_unit_vectors(c + 3)) return {x, y, z, nx, ny, nz};
       return {x, y, z, red, green, blue};
     case 7: {
-      const bool bytes = rows.all(c + 3, is_byte) && rows.all(c + 4, is_byte) && rows.all(c + 5, is_byte);
+      const auto are_bytes = [&](std::size_t first) {
+        return rows.all(first, is_byte) && rows.all(first + 1, is_byte) && rows.all(first + 2, is_byte);
+      };
+      const auto are_shares = [&](std::size_t first) {
+        return rows.all(first, is_share) && rows.all(first + 1, is_share) && rows.all(first + 2, is_share);
+      };
+      const bool bytes = are_bytes(c + 3);
       const bool bright =
           !rows.all(c + 3, is_small_label) || !rows.all(c + 4, is_small_label) || !rows.all(c + 5, is_small_label);
       if (bytes && bright && rows.all(c + 6, is_small_label)) return {x, y, z, red, green, blue, label};
-      return {x, y, z, intensity, red, green, blue};
+      if (are_bytes(c + 4) || are_shares(c + 4)) return {x, y, z, intensity, red, green, blue};
+      if (bytes || are_shares(c + 3)) return {x, y, z, red, green, blue, intensity};
+      return {};
     }
     case 9:
       if (rows.are_unit_vectors(c + 3)) return {x, y, z, nx, ny, nz, red, green, blue};
-      return {x, y, z, red, green, blue, nx, ny, nz};
-    case 10: return {x, y, z, intensity, red, green, blue, nx, ny, nz};
+      if (rows.are_unit_vectors(c + 6)) return {x, y, z, red, green, blue, nx, ny, nz};
+      return {};
+    case 10:
+      if (rows.are_unit_vectors(c + 7)) return {x, y, z, intensity, red, green, blue, nx, ny, nz};
+      if (rows.are_unit_vectors(c + 6)) return {x, y, z, red, green, blue, nx, ny, nz, intensity};
+      return {};
     default: return {};
   }
 }
@@ -149,6 +192,9 @@ std::string text_of(const std::vector<Role>& roles) {
 
 std::vector<Role> unnamed_roles(const std::string& path, const std::vector<Row>& rows, const TextDialect& dialect,
                                 std::size_t width, const Context& context) {
+  using enum Role;
+  if (width == 6 && lower_case(path).ends_with(".xyzn")) return {x, y, z, nx, ny, nz};
+  if (width == 6 && lower_case(path).ends_with(".xyzrgb")) return {x, y, z, red, green, blue};
   const SampledRows numbers(path, rows, dialect, width);
   std::vector<Role> roles;
   const bool counts = width > 3 && numbers.counts();
@@ -164,7 +210,7 @@ std::vector<Role> unnamed_roles(const std::string& path, const std::vector<Row>&
   const std::string taken = fmt::format("{}: columns without names, taken for {}", path, text_of(roles));
   if (roles.front() == Role::none)
     context.warn(taken + ": the first one counts the rows");
-  else if (roles.back() == Role::label)
+  else if (roles.back() == Role::label || (width == 7 && roles.back() == Role::intensity))
     context.warn(taken + ": a line of names in front would say so");
   else
     context.info(taken);
@@ -199,6 +245,10 @@ std::vector<RowScan> counted_scans(const std::string& path, const Lines& lines, 
     double points = 0;
     const bool good = tokens.size() == 1 && parse_number(tokens[0], points) && points >= 0 &&
                       points <= static_cast<double>(left) && points == std::floor(points);
+    if (!good && tokens.size() == 1 && parse_number(tokens[0], points) &&
+        !(points >= 0 && points == std::floor(points)))
+      throw Error(fmt::format("{}:{}: {} is no number of points", path, head.line, quote(tokens[0])),
+                  "a PTS file begins with how many points follow");
     if (!good)
       throw Error(fmt::format("{}:{}: {} points are declared, but {} lines follow", path, head.line,
                               tokens.size() == 1 ? std::string(tokens[0]) : quote(head.text), left),
@@ -241,9 +291,9 @@ TextLayout text_layout(const std::string& path, std::string_view text, const Lin
   layout.dialect = dialect_of(sample);
   if (layout.dialect.decimal_comma) context.info(path + ": numbers with a decimal comma");
 
-  const std::size_t width_below = fields_of(rows.back().text, layout.dialect).size();
+  const std::size_t width_below = row_fields(rows.back().text, layout.dialect).size();
   std::string_view names = names_in_comments(text);
-  if (!is_numeric(fields_of(rows[0].text, layout.dialect), layout.dialect)) {
+  if (!is_numeric(row_fields(rows[0].text, layout.dialect), layout.dialect)) {
     names = rows[0].text;
     layout.roles = named_roles(names, layout.dialect, width_below);
     if (layout.roles.empty())
@@ -256,7 +306,7 @@ TextLayout text_layout(const std::string& path, std::string_view text, const Lin
   } else if (!names.empty()) {
     layout.roles = named_roles(names, layout.dialect, width_below);
   }
-  const Fields fields = fields_of(rows.front().text, layout.dialect);
+  const Fields fields = row_fields(rows.front().text, layout.dialect);
   if (layout.roles.empty()) {
     std::size_t width = fields.size();
     while (width > 3 && fields[width - 1].empty()) --width;
@@ -278,9 +328,9 @@ void read_numbers(const std::string& path, const Row& row, const TextDialect& di
     if (!next_field(rest, dialect, field))
       throw Error(fmt::format("{}:{}: {} values instead of {} (cut short?)", path, row.line, c, roles.size()));
     if (roles[c] != Role::none && !parse_field(field, dialect, to[c]))
-      throw Error(fmt::format("{}:{}: {} is not a number", path, row.line, quote(field)));
+      throw Error(fmt::format("{}:{}: {}", path, row.line, no_number(field)));
   }
-  while (next_field(rest, dialect, field))
+  while (next_field(rest, dialect, field) && !field.starts_with('#'))
     if (!field.empty())
       throw Error(fmt::format("{}:{}: more than {} values: {} follows", path, row.line, roles.size(), quote(field)));
 }

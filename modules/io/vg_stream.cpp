@@ -41,15 +41,20 @@ class TextStream final : public VgStream {
   double number(std::string_view what) override {
     const std::string_view t = token(what);
     double value = 0;
-    if (!parse_number(t, value)) fail(fmt::format("{} is not a number ({})", quote(t), what));
+    if (!parse_number(t, value)) fail(fmt::format("{} ({})", no_number(t), what));
     return value;
   }
   void name(std::string_view what) override {
     const std::string_view t = token(what);
-    double value = 0;
-    if (parse_number(t, value)) fail(fmt::format("the name '{}:' is missing, there is {}", what, quote(t)));
+    const std::size_t colon = t.find(':');
+    if (!is_called(t.substr(0, colon), what))
+      fail(fmt::format("the name '{}:' is missing, there is {}", what, quote(t)));
+    if (colon != std::string_view::npos) {
+      place_ = last_ + colon + 1;
+      return;
+    }
     const std::size_t here = place_;
-    if (place_ < text_.size() && !t.ends_with(':') && token(what) != ":") place_ = here;
+    if (place_ < text_.size() && token(what) != ":") place_ = here;
   }
   void label() override {
     name("group_label");
@@ -66,6 +71,19 @@ class TextStream final : public VgStream {
 
  private:
   [[noreturn]] void fail(const std::string& what) const { throw Error(where() + ": " + what); }
+
+  /// Programs write num_group_points, group_num_point, normals …: prefixes, letter case, a plural and "colour" do not
+  /// matter.
+  static bool is_called(std::string_view name, std::string_view what) {
+    const auto plain = [](std::string_view text) {
+      std::string lower = lower_case(text);
+      while (lower.starts_with("num_") || lower.starts_with("group_")) lower.erase(0, lower.find('_') + 1);
+      if (lower.ends_with('s')) lower.pop_back();
+      if (const std::size_t at = lower.find("colour"); at != std::string::npos) lower.erase(at + 4, 1);
+      return lower;
+    };
+    return plain(name) == plain(what);
+  }
 
   std::string_view token(std::string_view what) {
     while (place_ < text_.size() && is_blank(text_[place_])) ++place_;

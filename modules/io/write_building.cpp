@@ -4,7 +4,7 @@
 
 namespace atrium::io {
 
-WriteBuilding::Out WriteBuilding::run(const In& in, const Params& params, Context& context) {
+void WriteBuilding::run(const In& in, const Params& params, Context& context) {
   std::string text;
   const std::optional<double> unit = in.scan ? std::optional(in.scan->unit) : std::nullopt;
   if (in.transform) {
@@ -18,7 +18,6 @@ WriteBuilding::Out WriteBuilding::run(const In& in, const Params& params, Contex
   file.write(text);
   file.commit();
   context.wrote(target);
-  return {};
 }
 
 }  // namespace atrium::io

@@ -43,7 +43,6 @@ struct WriteBuilding {
     OptionalInput<Transform> transform;
     OptionalInput<Cloud> scan;
   };
-  struct Out {};
   struct Params {
     OutputPath path{"building.json"};
   };
@@ -51,9 +50,8 @@ struct WriteBuilding {
       std::tuple{port<&In::building>("What is written."),
                  port<&In::transform>("From the frame that is wanted to that of the building."),
                  port<&In::scan>("The scan that it was made from: the unit of its file is named.")};
-  static constexpr auto outputs = std::tuple{};
   static constexpr auto params = std::tuple{param<&Params::path>("The JSON file.")};
-  static Out run(const In& in, const Params& params, Context& context);
+  static void run(const In& in, const Params& params, Context& context);
 };
 
 }  // namespace atrium::io

@@ -101,7 +101,7 @@ void write_columns(const Cloud& cloud, const std::string& extension, bool binary
 
 }  // namespace
 
-WriteCloud::Out WriteCloud::run(const In& in, const Params& params, Context& context) {
+void WriteCloud::run(const In& in, const Params& params, Context& context) {
   const Cloud& cloud = *in.cloud;
   const std::string extension = extension_of(params.path.path);
   const bool text = extension == ".xyz" || extension == ".txt" || extension == ".csv";
@@ -129,7 +129,6 @@ WriteCloud::Out WriteCloud::run(const In& in, const Params& params, Context& con
     write_columns(cloud, extension, params.binary, file);
   file.commit();
   context.wrote(target);
-  return {};
 }
 
 }  // namespace atrium::io

@@ -28,18 +28,16 @@ struct WriteCloud {
   struct In {
     Input<Cloud> cloud;
   };
-  struct Out {};
   struct Params {
     OutputPath path{"cloud.ply"};
     bool binary = true;
   };
   static constexpr auto inputs = std::tuple{port<&In::cloud>("What to write.")};
-  static constexpr auto outputs = std::tuple{};
   static constexpr auto params = std::tuple{
       param<&Params::path>("The file, in the run's folder; its extension is the format: .ply, .pcd, .e57, .las, .laz, "
                            ".xyz, .txt, .csv."),
       param<&Params::binary>("Binary where the format has both kinds (.ply, .pcd); else text.")};
-  static Out run(const In& in, const Params& params, Context& context);
+  static void run(const In& in, const Params& params, Context& context);
 };
 
 }  // namespace atrium::io

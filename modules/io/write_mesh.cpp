@@ -60,7 +60,7 @@ Mesh scaled(const Mesh& mesh, double factor) {
 
 }  // namespace
 
-WriteMesh::Out WriteMesh::run(const In& in, const Params& params, Context& context) {
+void WriteMesh::run(const In& in, const Params& params, Context& context) {
   const std::string extension = extension_of(params.path.path);
   if (extension != ".ply" && extension != ".obj" && extension != ".stl" && extension != ".glb")
     throw Error("cannot write a mesh as '" + params.path.path + "'", "known extensions: .ply, .obj, .stl, .glb");
@@ -85,7 +85,6 @@ WriteMesh::Out WriteMesh::run(const In& in, const Params& params, Context& conte
   else
     write_one(mesh, images, up, extension, params.binary, target);
   context.wrote(target);
-  return {};
 }
 
 }  // namespace atrium::io

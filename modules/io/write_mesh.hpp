@@ -42,7 +42,6 @@ struct WriteMesh {
     OptionalInput<Textures> textures;
     OptionalInput<Transform> transform;
   };
-  struct Out {};
   struct Params {
     OutputPath path{"mesh.ply"};
     bool binary = true;
@@ -51,7 +50,6 @@ struct WriteMesh {
   static constexpr auto inputs =
       std::tuple{port<&In::mesh>("What to write."), port<&In::textures>("Images of its faces, for .glb and .obj."),
                  port<&In::transform>("From the mesh's frame to one with z up, so that a .glb stands upright.")};
-  static constexpr auto outputs = std::tuple{};
   static constexpr auto params = std::tuple{
       param<&Params::path>("The file, in the run's folder; its extension is the format: .ply, .obj, .stl, .glb."),
       param<&Params::binary>("Binary where the format has both kinds (.ply, .stl); else text."),
@@ -61,7 +59,7 @@ struct WriteMesh {
                             {"in", Unit::inch},
                             {"ft", Unit::foot}},
                            "Unit of the coordinates in the file. A .glb is in metres always.")};
-  static Out run(const In& in, const Params& params, Context& context);
+  static void run(const In& in, const Params& params, Context& context);
 };
 
 }  // namespace atrium::io

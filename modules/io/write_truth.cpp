@@ -4,13 +4,12 @@
 
 namespace atrium::io {
 
-WriteTruth::Out WriteTruth::run(const In& in, const Params& params, Context& context) {
+void WriteTruth::run(const In& in, const Params& params, Context& context) {
   const auto target = context.output(params.path.path);
   AtomicFile file(target);
   file.write(truth_to_json(*in.truth));
   file.commit();
   context.wrote(target);
-  return {};
 }
 
 }  // namespace atrium::io

@@ -25,14 +25,12 @@ struct WriteTruth {
   struct In {
     Input<GroundTruth> truth;
   };
-  struct Out {};
   struct Params {
     OutputPath path{"truth.json"};
   };
   static constexpr auto inputs = std::tuple{port<&In::truth>("What is written.")};
-  static constexpr auto outputs = std::tuple{};
   static constexpr auto params = std::tuple{param<&Params::path>("The JSON file.")};
-  static Out run(const In& in, const Params& params, Context& context);
+  static void run(const In& in, const Params& params, Context& context);
 };
 
 }  // namespace atrium::io

@@ -148,7 +148,7 @@ void write(const PlanePrimitives& planes, const Eigen::Vector3d& origin, Writer&
 
 }  // namespace
 
-WriteVg::Out WriteVg::run(const In& in, const Params& params, Context& context) {
+void WriteVg::run(const In& in, const Params& params, Context& context) {
   const Cloud& cloud = *in.planes->cloud;
   const std::string extension = extension_of(params.path.path);
   if (extension != ".vg" && extension != ".bvg")
@@ -171,7 +171,6 @@ WriteVg::Out WriteVg::run(const In& in, const Params& params, Context& context) 
   out.flush();
   file.commit();
   context.wrote(target);
-  return {};
 }
 
 }  // namespace atrium::io

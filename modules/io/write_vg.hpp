@@ -18,15 +18,13 @@ struct WriteVg {
   struct In {
     Input<PlanePrimitives> planes;
   };
-  struct Out {};
   struct Params {
     OutputPath path{"planes.vg"};
   };
   static constexpr auto inputs = std::tuple{port<&In::planes>("What to write.")};
-  static constexpr auto outputs = std::tuple{};
   static constexpr auto params =
       std::tuple{param<&Params::path>("The file, in the run's folder: .vg (text) or .bvg (binary, float32).")};
-  static Out run(const In& in, const Params& params, Context& context);
+  static void run(const In& in, const Params& params, Context& context);
 };
 
 }  // namespace atrium::io

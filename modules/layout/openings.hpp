@@ -7,12 +7,14 @@ namespace atrium::layout {
 
 /// Finds doors, passages, windows and holes in slabs: where a face must have been hit if it were solid, and was not.
 ///
-/// - A square of a face is solid if points lie on it (within `tolerance`, or thrice the face's noise; in thin walls within
-///   a third of their thickness) or around it as densely as they do there; if the face behind it in the same wall is solid there; else it is hidden.
+/// - A square of a face is solid if points lie on it (within `tolerance`, or thrice the face's noise; in thin walls at
+///   most a third of their thickness) or around it as densely as they do there; if the face behind it in the same wall
+///   is solid there; else it is hidden.
 /// - A hidden square is a hole if points behind the face show through it (by the ways from the scanner's places in the
 ///   room; without these, points between the wall's faces), or if the way from there to such a place is free. Without
-///   known places, to a quarter of a grid of places 1.5 m above the room's floor, of those that do not graze the face. Surfaces stop ways however sparse
-///   they are, single points do not. What is a hole in one face and hidden in the one behind it is a hole in both.
+///   known places, to a quarter of a grid of places 1.5 m above the room's floor, of those that do not graze the face.
+///   Surfaces stop ways however sparse they are, single points do not. What is a hole in one face and hidden in the one
+///   behind it is a hole in both.
 /// - Of each connected part the rectangles that hold the most holes and the fewest solid squares are openings if they
 ///   are min_width wide and min_height high (in floors and ceilings: both min_slab_width), if min_fill of them is a
 ///   hole (hidden squares count half), and if something shows through them, more than strays do: a reveal at least.

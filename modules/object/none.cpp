@@ -2,10 +2,6 @@
 
 namespace atrium::object {
 
-None::Out None::run(const In& in) {
-  Out out;
-  out.mesh.origin = in.cloud->origin;
-  return out;
-}
+None::Out None::run() { return {}; }
 
 }  // namespace atrium::object

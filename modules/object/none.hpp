@@ -5,19 +5,20 @@
 
 namespace atrium::object {
 
-/// No surface for the objects: the swap that leaves them out of the scene.
+/// No surface for the objects: the swap that leaves them out of the scene. What only prepares their points does not
+/// run.
 struct None {
   static constexpr std::string_view type = "object.none";
   static constexpr std::string_view summary = "Leaves the objects out: an empty mesh.";
   struct In {
-    Input<Cloud> cloud;
+    UnusedInput<Cloud> cloud;
   };
   struct Out {
     Mesh mesh;
   };
-  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points of the objects; not used.")};
-  static constexpr auto outputs = std::tuple{port<&Out::mesh>("Nothing, at the cloud's origin.")};
-  static Out run(const In& in);
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points of the objects.")};
+  static constexpr auto outputs = std::tuple{port<&Out::mesh>("Nothing.")};
+  static Out run();
 };
 
 }  // namespace atrium::object

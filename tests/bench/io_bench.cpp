@@ -44,7 +44,7 @@ void read(benchmark::State& state, const std::string& extension, bool binary, bo
   atrium::io::ReadScan::Params params;
   params.path.path = file.path;
   params.voxel = voxel;
-  for (auto _ : state) benchmark::DoNotOptimize(atrium::io::ReadScan::run({}, params, context));
+  for (auto _ : state) benchmark::DoNotOptimize(atrium::io::ReadScan::run(params, context));
   state.SetItemsProcessed(state.iterations() * state.range(0));
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(std::filesystem::file_size(file.path)));
 }

@@ -106,6 +106,30 @@ TEST(PngStamp, EveryPictureOfARunCarriesItAndOtherFilesDoNot) {
   EXPECT_EQ(read_text(folder / "run/text.png"), "text");
 }
 
+struct Start {
+  static constexpr std::string_view type = "test.start";
+  static constexpr std::string_view summary = "Would start a program.";
+  static constexpr bool runs_programs = true;
+  static void run() {}
+};
+
+TEST(PngStamp, APictureStartsNoProgram) {
+  TemporaryFolder folder;
+  Registry registry{std::vector<std::filesystem::path>{}};
+  registry.add(describe_node<Start>());
+  const std::string starting = "atrium: 1\nnodes: {start: {type: test.start}}\n";
+  write_text(folder / "plain.yaml", starting);
+  EXPECT_TRUE(load_pipeline(folder / "plain.yaml", {}, registry).errors.empty());
+  write_text(folder / "a.png", pixel());
+  stamp_png(folder / "a.png", {"0123", starting});
+  write_text(folder / "with_picture.yaml", "atrium: 1\nnodes: {sub: {pipeline: a.png}}\n");
+  for (const std::string name : {"a.png", "with_picture.yaml"}) {
+    const LoadResult result = load_pipeline(folder / name, {}, registry);
+    ASSERT_EQ(result.errors.size(), 1U) << name;
+    EXPECT_NE(result.errors[0].message.find("would start a program"), std::string::npos) << name;
+  }
+}
+
 TEST(PngStamp, APictureWithoutOneIsNoPipeline) {
   TemporaryFolder folder;
   write_text(folder / "plain.png", pixel());

@@ -50,6 +50,38 @@ outputs: {planes: all.planes}
   EXPECT_EQ(pipeline[pipeline[whole].outputs[0].from.node].path, "all/two/refined");
 }
 
+TEST_F(SubPipeline, WhatOnlyAnUnusedInputWantsIsLeftOut) {
+  const std::string text = R"(atrium: 1
+nodes:
+  cloud: {type: test.make}
+  grown: {type: test.grow, in: {cloud: cloud.cloud}}
+  first: {type: test.make}
+  joined: {type: test.join, in: {clouds: [first.cloud, cloud.cloud]}}
+  found: {type: test.find, in: {cloud: joined.cloud}}
+outputs: {planes: found.planes, grown: grown.planes}
+)";
+  const std::vector<std::string> all{"cloud", "grown", "first", "joined", "found"};
+  EXPECT_EQ(paths(load_text(text).pipeline), all);
+  const LoadResult result = load_text(text, {"found.type=test.leave"});
+  ASSERT_TRUE(result.errors.empty()) << messages(result);
+  EXPECT_TRUE(result.warnings.empty());
+  EXPECT_EQ(paths(result.pipeline), (std::vector<std::string>{"cloud", "grown", "found"}));
+  EXPECT_TRUE(inputs_of(index(result.pipeline, "found"), result.pipeline).at(0).empty());
+
+  // It is checked all the same, and what is set of a node that does not run is told.
+  EXPECT_FALSE(load_text("atrium: 1\nnodes:\n  a: {type: test.make}\n  b: {type: test.grow, in: {cloud: a.cloud}}\n"
+                         "  c: {type: test.leave, in: {cloud: b.planes}}\noutputs: {planes: c.planes}\n")
+                   .errors.empty());
+  const LoadResult set = load_text(text, {"found.type=test.leave", "joined.weights=[1, 2]"});
+  ASSERT_TRUE(set.errors.empty()) << messages(set);
+  ASSERT_EQ(set.warnings.size(), 1U);
+  EXPECT_NE(to_string(set.warnings[0]).find("'joined' does not run"), std::string::npos);
+
+  const LoadResult again = load(folder.write("again.yaml", resolved_yaml(result.pipeline)));
+  ASSERT_TRUE(again.errors.empty()) << messages(again);
+  EXPECT_EQ(paths(again.pipeline), paths(result.pipeline));
+}
+
 TEST_F(SubPipeline, WhoseSubPipelinesMultiplyEnds) {
   std::string open = "atrium: 1\nnodes:\n";
   for (int i = 0; i < 20; ++i)

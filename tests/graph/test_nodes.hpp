@@ -102,6 +102,21 @@ struct Grow {
   static Out run(const In&, const Params&, Context&) { return {}; }
 };
 
+/// Stands in for test.find and finds nothing.
+struct Leave {
+  static constexpr std::string_view type = "test.leave";
+  static constexpr std::string_view summary = "Finds no plane.";
+  struct In {
+    UnusedInput<Cloud> cloud;
+  };
+  struct Out {
+    Planes planes;
+  };
+  static constexpr auto inputs = std::tuple{port<&In::cloud>("Points.")};
+  static constexpr auto outputs = std::tuple{port<&Out::planes>("None.")};
+  static Out run() { return {}; }
+};
+
 /// Cannot stand in for test.find: its input is of another type.
 struct Refine {
   static constexpr std::string_view type = "test.refine";
@@ -164,6 +179,7 @@ inline void add_test_nodes(Registry& registry) {
   registry.add(describe_node<Make>());
   registry.add(describe_node<Find>());
   registry.add(describe_node<Grow>());
+  registry.add(describe_node<Leave>());
   registry.add(describe_node<Refine>());
   registry.add(describe_node<Join>());
   registry.add(describe_node<Write>());

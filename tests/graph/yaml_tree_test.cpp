@@ -55,14 +55,14 @@ TEST(YamlTree, InterpretsNothing) {
   EXPECT_TRUE(items[6].is_null());
 }
 
-TEST(YamlTree, ReadsWindowsLinesAndByteOrderMarks) {
-  const YamlTree tree = parse_yaml(
-      "\xef\xbb\xbf"
-      "a: 1\r\nb: 2\r\n");
-  ASSERT_TRUE(tree.root) << tree.problems.front().message;
-  EXPECT_EQ(tree.root->find("a")->place.column, 1);
-  EXPECT_EQ(tree.root->find("a")->value.text, "1");
-  EXPECT_EQ(tree.root->find("b")->place.line, 2);
+TEST(YamlTree, ReadsAllLineEndsAndByteOrderMarks) {
+  for (const std::string text : {"a: 1\r\nb: 2\r\n", "a: 1\rb: 2\r", "a: 1\rb: 2\n", "a: 1\nb: 2\r"}) {
+    const YamlTree tree = parse_yaml("\xef\xbb\xbf" + text);
+    ASSERT_TRUE(tree.root) << tree.problems.front().message;
+    EXPECT_EQ(tree.root->find("a")->place.column, 1);
+    EXPECT_EQ(tree.root->find("a")->value.text, "1");
+    EXPECT_EQ(tree.root->find("b")->place.line, 2);
+  }
 }
 
 TEST(YamlTree, RejectsWhatYamlCppWouldReadDifferently) {

@@ -34,6 +34,16 @@ foreach(file include/atrium/graph/api/node.hpp include/atrium/modules/types/clou
   endif()
 endforeach()
 
+# Each installed header compiles alone.
+file(GLOB_RECURSE headers ${prefix}/include/atrium/graph/*.hpp ${prefix}/include/atrium/modules/*.hpp)
+list(LENGTH headers count)
+if(count LESS 20)
+  message(FATAL_ERROR "only ${count} headers are installed")
+endif()
+foreach(header IN LISTS headers)
+  call(0 "" c++ -std=c++20 -fsyntax-only -x c++ -I${prefix}/include/atrium -I/usr/include/eigen3 ${header})
+endforeach()
+
 # What is installed is as good on another machine.
 get_filename_component(source ${here}/../.. ABSOLUTE)
 execute_process(COMMAND grep -rlF -e ${BUILD}/ -e ${source}/graph/ -e ${source}/modules/ ${prefix} OUTPUT_VARIABLE files)

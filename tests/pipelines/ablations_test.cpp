@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/pipelines/steps.hpp"
+#include "tests/support/lacking.hpp"
 
 namespace atrium::test::ablations_test {
 namespace {
@@ -61,7 +62,7 @@ ProcessResult example(const std::string& script, const fs::path& folder) {
 }
 
 TEST(Examples, PairsDifferInNothingButTheColumn) {
-  if (run_process({"sh", "-c", "command -v python3"}).exit_code != 0) GTEST_SKIP() << "python3 is not installed";
+  if (!has_program("python3")) ATRIUM_SKIP_LACKING("python3 is not installed");
   // error = 10 × noise + seed, and with method b `noise` more.
   const TemporaryFolder folder;
   const auto axis = [](const std::string& name, const std::vector<std::string>& labels) {
@@ -104,7 +105,7 @@ TEST(Examples, InBashAndPythonDriveASweepAndFindItsBestVariant) {
   EXPECT_TRUE(bash.out.starts_with("best: 70 planes, completeness 9")) << bash.out;
   EXPECT_NE(bash.err.find("some variants failed:"), std::string::npos) << bash.err;
   EXPECT_NE(bash.err.find("no plane is a wall"), std::string::npos) << bash.err;
-  if (run_process({"sh", "-c", "command -v python3"}).exit_code != 0) GTEST_SKIP() << "python3 is not installed";
+  if (!has_program("python3")) ATRIUM_SKIP_LACKING("python3 is not installed");
   const auto python = example("sweep.py", folder.path());
   ASSERT_EQ(python.exit_code, 0) << python.err;
   EXPECT_EQ(python.out, bash.out);

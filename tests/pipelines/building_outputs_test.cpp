@@ -5,6 +5,8 @@
 #include <fstream>
 
 #include "tests/pipelines/steps.hpp"
+#include "tests/support/lacking.hpp"
+#include "tests/support/svg_drawing.hpp"
 
 namespace atrium::test::building_outputs_test {
 namespace {
@@ -24,12 +26,24 @@ class BuildingOutputs : public testing::Test {
         "simulate.yaml", {"points=400000", "noise=8 mm", "yaw=23 deg", "tilt=2.5 deg", "offset=[500000, 5400000, 300]"},
         *scratch / "scan");
     ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
-    const auto made =
-        run_pipeline_file("atrium.yaml", {"scan=" + (*scratch / "scan/scan.ply").string()}, *scratch / "made");
+    const auto made = run_pipeline_file(
+        "atrium.yaml",
+        {"scan=" + (*scratch / "scan/scan.ply").string(), "objects.type=object.poisson", "objects.depth=6"},
+        *scratch / "made");
     ASSERT_EQ(made.exit_code, 0) << made.err;
   }
   static void TearDownTestSuite() { scratch.reset(); }
   static json building() { return json::parse(read_text(*scratch / "made/building.json")); }
+  static std::string made(const std::string& name) { return *scratch / "made" / name; }
+  /// Where validators that npm fetches are kept.
+  static std::string kept(const std::string& name) {
+    return fs::path(ATRIUM_PROGRAM).parent_path().parent_path() / "tests" / name;
+  }
+  // Each skips the test for want of a program.
+  static void expect_valid_scene();
+  static void expect_valid_plans();
+  static void expect_valid_drawings();
+  static void expect_valid_json();
   static std::unique_ptr<TemporaryFolder> scratch;
 };
 std::unique_ptr<TemporaryFolder> BuildingOutputs::scratch;
@@ -75,11 +89,67 @@ TEST_F(BuildingOutputs, TheSceneAndItsModelAreThere) {
     EXPECT_GT(fs::file_size(*scratch / "made" / name), 1000U) << name;
 }
 
+void BuildingOutputs::expect_valid_scene() {
+  const auto result = run_validator("validate-glb", {kept("gltf-validator"), made("scene.glb")});
+  if (result.exit_code == 77) ATRIUM_SKIP_LACKING("the glTF validator cannot be had: " << result.err);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json report = json::parse(result.out);
+  EXPECT_EQ(report["issues"]["numErrors"], 0) << report["issues"];
+  EXPECT_EQ(report["issues"]["numWarnings"], 0) << report["issues"];
+  for (const auto& message : report["issues"]["messages"])
+    EXPECT_EQ(message["code"], "IMAGE_NPOT_DIMENSIONS") << message;  // of no concern since WebGL 2
+  EXPECT_TRUE(report["info"]["hasTextures"]);
+  EXPECT_GT(report["info"]["totalTriangleCount"], 1000) << "the furniture";
+}
+
+void BuildingOutputs::expect_valid_plans() {
+  const auto geojson = run_validator("validate-geojson", {made("floorplan.geojson")});
+  EXPECT_EQ(geojson.exit_code, 0) << geojson.err;
+  EXPECT_EQ(geojson.out, "");
+  const std::string python = python_with("ezdxf");
+  if (python.empty()) ATRIUM_SKIP_LACKING("python3-ezdxf is not installed");
+  const auto dxf = run_process({python, ATRIUM_SOURCE_DIR "/tests/unit/floorplan/read_dxf.py", made("floorplan.dxf")});
+  ASSERT_EQ(dxf.exit_code, 0) << dxf.err;
+  const json root = json::parse(dxf.out);
+  for (const auto* complaint : {"errors", "fixes", "logged", "structure"})
+    EXPECT_EQ(root[complaint], json::array()) << complaint;
+}
+
+void BuildingOutputs::expect_valid_drawings() {
+  ATRIUM_SKIP_WITHOUT_SVG_READERS();
+  EXPECT_GT(drawn(made("floorplan.svg")).ink(), 0.05);
+  const SvgDrawing map = drawn(made("accuracy.svg"));
+  EXPECT_GT(map.ink(), 0.2);
+  EXPECT_GT(map.count(0xF4F4F4), 1000U) << "faces where no point is";
+  EXPECT_GT(map.count(0xDDDDDD), 1000U) << "squares without a deviation";
+}
+
+void BuildingOutputs::expect_valid_json() {
+  for (const auto& [schema, file] :
+       std::vector<std::pair<std::string, fs::path>>{{"building", made("building.json")},
+                                                     {"manifest", made("manifest.json")},
+                                                     {"trace", made("trace.json")},
+                                                     {"pipeline", made("resolved.yaml")},
+                                                     {"truth", *scratch / "scan/truth.json"}}) {
+    const auto result = run_validator("validate-json", {source / "share/schema" / (schema + ".schema.json"), file});
+    if (result.exit_code == 77) ATRIUM_SKIP_LACKING(result.err);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, "");
+  }
+}
+
+// One test of them all, because each test makes the scan and the building anew. Where a program is lacking, what
+// follows is checked all the same.
+TEST_F(BuildingOutputs, OtherProgramsHaveNothingAgainstTheFiles) {
+  expect_valid_scene();
+  expect_valid_plans();
+  expect_valid_drawings();
+  expect_valid_json();
+}
+
 TEST_F(BuildingOutputs, AnotherProgramFindsTheBuildingInTheIfcFile) {
-  const fs::path build = fs::path(ATRIUM_PROGRAM).parent_path().parent_path();
-  const auto result = run_process({ATRIUM_SOURCE_DIR "/tests/validate-ifc", (build / "tests/web-ifc").string(),
-                                   (*scratch / "made/building.ifc").string()});
-  if (result.exit_code == 77) GTEST_SKIP() << "web-ifc cannot be had: " << result.err;
+  const auto result = run_validator("validate-ifc", {kept("web-ifc"), made("building.ifc")});
+  if (result.exit_code == 77) ATRIUM_SKIP_LACKING("web-ifc cannot be had: " << result.err);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json report = json::parse(result.out), root = building();
   EXPECT_TRUE(report["log"].empty()) << report["log"];

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "tests/pipelines/sweep_folder_test.hpp"
+#include "tests/support/lacking.hpp"
 
 namespace atrium::test::farm_test {
 namespace {
@@ -209,7 +210,7 @@ class Farm : public SweepFolderTest {
 };
 
 TEST_F(Farm, SlurmRunsTwentyVariantsAndGatherTellsTheTruth) {
-  if (!Slurm::is_installed()) GTEST_SKIP() << "slurmctld, slurmd, slurm-client and munge are not installed";
+  if (!Slurm::is_installed()) ATRIUM_SKIP_LACKING("slurmctld, slurmd, slurm-client and munge are not installed");
   Slurm slurm(folder / "slurm");
   if (!slurm.comes_up()) GTEST_SKIP() << "Slurm does not come up on this machine: " << slurm.log();
   twenty();
@@ -230,7 +231,7 @@ TEST_F(Farm, SlurmRunsTwentyVariantsAndGatherTellsTheTruth) {
 }
 
 TEST_F(Farm, GnuParallelRunsTwentyVariantsAndGatherTellsTheTruth) {
-  if (!fs::exists("/usr/bin/parallel")) GTEST_SKIP() << "parallel is not installed";
+  if (!fs::exists("/usr/bin/parallel")) ATRIUM_SKIP_LACKING("parallel is not installed");
   twenty();
   const auto result = atrium({"submit", "s.yaml", "--engine", "parallel", "--out", "out", "--cache", "cache",
                               "--shards", "4", "--", "--sshlogin", "2/:"});
@@ -240,7 +241,7 @@ TEST_F(Farm, GnuParallelRunsTwentyVariantsAndGatherTellsTheTruth) {
 
 // No part of a folder's name is a command, nor anything that parallel replaces.
 TEST_F(Farm, AnyFolderWillDo) {
-  if (!fs::exists("/usr/bin/parallel")) GTEST_SKIP() << "parallel is not installed";
+  if (!fs::exists("/usr/bin/parallel")) ATRIUM_SKIP_LACKING("parallel is not installed");
   sweep("grid: {second.number: [2, 3]}\nmetrics: {sum: sum}\n");
   for (const std::string out : {"it's here", "a {} b {#} %a %%", "x'; touch INJECTED; echo '", "$(touch INJECTED)"}) {
     const auto result = atrium({"submit", "s.yaml", "--engine", "parallel", "--out", out, "--no-cache"});

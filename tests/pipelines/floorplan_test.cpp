@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/pipelines/steps.hpp"
+#include "tests/support/lacking.hpp"
 
 namespace atrium::test::floorplan_test {
 namespace {
@@ -16,7 +17,14 @@ const double xs = 0.56 * 10.2, left = 0.58 * 8, right = 0.47 * 8, t = 0.12;
 const std::vector<double> flat_rooms{xs * left, xs*(8 - left - t), (10.2 - xs - t) * (8 - right - t),
                                      (10.2 - xs - t) * right};
 
-json plan_of(const fs::path& folder) { return json::parse(read_text(folder / "floorplan.geojson")); }
+/// The plan in a run's folder; by the rules of RFC 7946.
+json plan_of(const fs::path& folder) {
+  const fs::path file = folder / "floorplan.geojson";
+  const auto result = run_validator("validate-geojson", {file});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, "");
+  return json::parse(read_text(file));
+}
 
 std::vector<json> of_class(const json& plan, const std::string& name) {
   std::vector<json> result;
@@ -99,11 +107,12 @@ TEST_P(TruePlan, HasItsRooms) {
   const auto drawn =
       run_pipeline_file("floorplan.yaml", {"structure=" + (scratch / "scan/truth.ply").string()}, scratch / "plan");
   ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
-  const auto areas = room_areas(plan_of(scratch / "plan"));
+  const json plan = plan_of(scratch / "plan");
+  const auto areas = room_areas(plan);
   ASSERT_EQ(areas.size(), rooms);
   if (scene == "flat") {
     for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(areas[i], flat_rooms[i], 1e-3) << i;
-    expect_inner_walls(plan_of(scratch / "plan"), 8);
+    expect_inner_walls(plan, 8);
   }
 }
 

@@ -2,7 +2,7 @@
 // input.
 #include <gtest/gtest.h>
 
-#include "tests/support/process.hpp"
+#include "tests/support/lacking.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace atrium::test::picture_test {
@@ -148,8 +148,7 @@ TEST_F(Picture, WithoutEglItIsDrawnByAnXServerOrIsAClearError) {
   EXPECT_NE(none.err.find("no picture can be drawn on this machine"), std::string::npos) << none.err;
   EXPECT_NE(none.err.find("xvfb-run -a"), std::string::npos) << none.err;
   EXPECT_EQ(pictures(), 0U);
-  if (run_process({"sh", "-c", "command -v xvfb-run && command -v Xvfb"}).exit_code != 0)
-    GTEST_SKIP() << "xvfb is not installed";
+  if (!has_program("xvfb-run") || !has_program("Xvfb")) ATRIUM_SKIP_LACKING("xvfb is not installed");
   ASSERT_EQ(draw(three, "path: a.png, width: 64, height: 64").exit_code, 0);
   const std::string by_egl = read_text(folder / "run/a.png");
   const auto by_x = run_process({"xvfb-run", "-a", ATRIUM_PROGRAM, "run", "draw.yaml", "--out", "run", "-q"},
@@ -160,8 +159,7 @@ TEST_F(Picture, WithoutEglItIsDrawnByAnXServerOrIsAClearError) {
 }
 
 TEST_F(Picture, AnXServerDrawsManyByManyThreads) {
-  if (run_process({"sh", "-c", "command -v xvfb-run && command -v Xvfb"}).exit_code != 0)
-    GTEST_SKIP() << "xvfb is not installed";
+  if (!has_program("xvfb-run") || !has_program("Xvfb")) ATRIUM_SKIP_LACKING("xvfb is not installed");
   write_text(folder / "many.yaml", R"(atrium: 1
 seed: 5
 nodes:

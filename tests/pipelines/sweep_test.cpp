@@ -1,4 +1,5 @@
 // `atrium sweep` as its users see it.
+#include "graph/api/files.hpp"
 #include "tests/pipelines/sweep_case.hpp"
 
 namespace atrium::test::sweep_test {
@@ -127,6 +128,24 @@ exclude: [{ablation: off, second.value: 4}]
   EXPECT_EQ(report.at("excluded"), 3);
   EXPECT_EQ(report.at("variants").size() + report.at("duplicates").get<std::size_t>(), 9U);
   EXPECT_GE(report.at("duplicates"), 3);  // three samples of two choices
+}
+
+TEST_F(Sweep, WhatAKilledSweepLeftUnfinishedIsRemoved) {
+  sweep("grid: {second.value: [2, 3]}\n");
+  ASSERT_EQ(atrium({"run", "s.yaml", "--out", "out", "--quiet"}).exit_code, 0);
+  const auto left = folder.path() / "out" / unfinished_file_name("sweep.json"), mine = folder / "out/.mine.part";
+  write_text(left, "{");
+  write_text(mine, "not of Atrium");
+  ASSERT_EQ(atrium({"run", "s.yaml", "--out", "out", "--quiet"}).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(left));
+  EXPECT_TRUE(std::filesystem::exists(mine));
+}
+
+TEST_F(Sweep, ListsAreNotDrawnByChance) {
+  sweep("random: {samples: 2, of: {second.value: {choice: [[1, 2], [3]]}}}\n");
+  const auto plan = atrium({"plan", "s.yaml"});
+  EXPECT_EQ(plan.exit_code, 3);
+  EXPECT_NE(plan.err.find("a choice that is not a single value"), std::string::npos) << plan.err;
 }
 
 TEST_F(Sweep, RandomSamplesStayWhenMoreAreDrawn) {

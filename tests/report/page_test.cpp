@@ -1,7 +1,7 @@
 // The parts of the report's page that need no browser.
 #include <gtest/gtest.h>
 
-#include "tests/support/process.hpp"
+#include "tests/support/lacking.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace atrium::test::page_test {
@@ -10,7 +10,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(ReportPage, ReadsQuantitiesAndPutsTicksAtRoundPlaces) {
-  if (run_process({"sh", "-c", "command -v node"}).exit_code != 0) GTEST_SKIP() << "node is not installed";
+  if (!has_program("node")) ATRIUM_SKIP_LACKING("node is not installed");
   const auto result = run_process({"node", ATRIUM_SOURCE_DIR "/tests/report/parts.mjs"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
 }

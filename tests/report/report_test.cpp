@@ -5,7 +5,7 @@
 
 #include "graph/report/attachments.hpp"
 #include "graph/report/base64.hpp"
-#include "tests/support/process.hpp"
+#include "tests/support/lacking.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace atrium::test::report_test {
@@ -46,7 +46,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 class Report : public testing::Test {
  protected:
   void SetUp() override {
-    if (!fs::exists(page)) GTEST_SKIP() << "the report's page was not built (esbuild, libjs-three): " << page;
+    if (!fs::exists(page)) ATRIUM_SKIP_LACKING("the report's page was not built (esbuild, libjs-three): " << page);
   }
   static void make_sweep(const fs::path& folder) {
     write_text(folder / "base.yaml", R"(atrium: 1
@@ -73,8 +73,7 @@ outputs: {faces: faces.metrics, distance: distance.metrics}
   /// What the browser said of the report; skips where there is none.
   static void expect_works_in_browser(const fs::path& report, bool models) {
     for (const auto* program : {"chromium", "node"})
-      if (run_process({"sh", "-c", std::string("command -v ") + program}).exit_code != 0)
-        GTEST_SKIP() << program << " is not installed (share/install-packages --tests)";
+      if (!has_program(program)) ATRIUM_SKIP_LACKING(program << " is not installed (share/install-packages --tests)");
     std::vector<std::string> command{"node", ATRIUM_SOURCE_DIR "/tests/report/check.mjs", "chromium", report.string()};
     if (models) command.emplace_back("models");
     ProcessOptions options;

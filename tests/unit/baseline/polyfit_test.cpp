@@ -10,6 +10,7 @@
 
 #include "modules/baseline/helper_program.hpp"
 #include "tests/support/flat_cloud.hpp"
+#include "tests/support/lacking.hpp"
 #include "tests/unit/baseline/closed_surface.hpp"
 
 namespace atrium::baseline::polyfit_test {
@@ -17,7 +18,7 @@ namespace {
 
 bool have_helper() { return std::filesystem::exists(helper_file("atrium-polyfit")); }
 #define NEEDS_POLYFIT() \
-  if (!have_helper()) GTEST_SKIP() << "atrium-polyfit is not built: needs -DATRIUM_CGAL=ON"
+  if (!have_helper()) ATRIUM_SKIP_LACKING("atrium-polyfit is not built: needs -DATRIUM_CGAL=ON")
 
 struct Host : ContextHost {
   void log(Level level, std::string_view text) override {

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/support/box_building.hpp"
+#include "tests/support/svg_drawing.hpp"
 #include "writing_host.hpp"
 
 namespace atrium::building::accuracy_test {
@@ -110,6 +111,18 @@ TEST_F(AccuracyTable, TheHeatMapShowsEachFaceAndItsSquares) {
   const auto begin = svg.find("<path fill=\"#b40426\"");
   const std::string path = svg.substr(begin, svg.find("/>", begin) - begin);
   EXPECT_EQ(std::count(path.begin(), path.end(), 'z'), 30);
+}
+
+TEST_F(AccuracyTable, OtherProgramsDrawTheHeatMap) {
+  ATRIUM_SKIP_WITHOUT_SVG_READERS();
+  building.rooms[0].name = "]]> a < b & \"c\" \x01 \u53A8 \uFFFF";
+  for (int i = 0; i < 30; ++i) point(0.55 + 0.1 * i, 0.02, 1.05);
+  run();
+  const auto map = test::drawn(host->folder / "accuracy.svg");
+  // 40 pixels a metre: 30 squares of 10 cm, and the scale's red end of 12 × 14.
+  EXPECT_GE(map.count(0xB40426), 30U * 4 * 4 + 11 * 13);
+  EXPECT_LE(map.count(0xB40426), 30U * 4 * 4 + 12 * 14);
+  EXPECT_GT(map.ink(), 0.05);
 }
 
 TEST_F(AccuracyTable, WithoutPointsAllIsUnknown) {

@@ -1,1 +1,2 @@
-list(APPEND libraries atrium_floorplan nlohmann_json::nlohmann_json)
+find_package(PNG REQUIRED)
+list(APPEND libraries atrium_floorplan nlohmann_json::nlohmann_json PNG::PNG)

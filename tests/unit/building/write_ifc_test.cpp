@@ -13,7 +13,7 @@
 
 #include "houses.hpp"
 #include "modules/building/step_reader.hpp"
-#include "tests/support/process.hpp"
+#include "tests/support/lacking.hpp"
 #include "writing_host.hpp"
 
 namespace atrium::building::write_ifc_test {
@@ -273,7 +273,7 @@ TEST_F(IfcFile, AnotherProgramFindsTheSameVolumes) {
   }
   EXPECT_TRUE(host->warnings.empty());
   const auto result = test::run_process(command);
-  if (result.exit_code == 77) GTEST_SKIP() << "web-ifc cannot be had: " << result.err;
+  if (result.exit_code == 77) ATRIUM_SKIP_LACKING("web-ifc cannot be had: " << result.err);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   std::istringstream lines(result.out);
   std::size_t file = 0;

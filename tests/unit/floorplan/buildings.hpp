@@ -79,6 +79,20 @@ inline FloorPlan plan_of(const Mesh& mesh, const Project::Params& params = {}, s
   return plan;
 }
 
+/// `count` rooms of width × height side by side, with walls of 12 cm between them.
+inline Mesh row_of_rooms(double width, double height, int count) {
+  MeshBuilder b;
+  for (int i = 0; i < count; ++i) b.room(i * (width + 0.12), 0, i * (width + 0.12) + width, height);
+  return b.mesh;
+}
+
+/// One room of 5 m × 4 m on each storey.
+inline FloorPlan tower(int storeys) {
+  MeshBuilder b;
+  for (b.storey = 0; b.storey < storeys; ++b.storey) b.room(0, 0, 5, 4, 3.0 * b.storey, 3.0 * b.storey + 2.6);
+  return plan_of(b.mesh);
+}
+
 /// Adds to a storey of two_rooms a door between them, a window in the first room's lower wall and holes in its floor
 /// and ceiling.
 inline void add_openings(FloorPlan& plan, std::size_t storey) {

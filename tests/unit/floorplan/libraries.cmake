@@ -1,1 +1,2 @@
-list(APPEND libraries TBB::tbb nlohmann_json::nlohmann_json)
+find_package(PNG REQUIRED)
+list(APPEND libraries TBB::tbb nlohmann_json::nlohmann_json PNG::PNG)

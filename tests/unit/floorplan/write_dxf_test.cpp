@@ -1,4 +1,5 @@
-// DXF files are read back by an independent reader, ezdxf (Debian: python3-ezdxf); without it these tests are skipped.
+// DXF files are read back by an independent reader, ezdxf (Debian: python3-ezdxf); without it these tests are
+// skipped, where nobody asks for all checks.
 #include "modules/floorplan/write_dxf.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "modules/floorplan/dxf_drawing.hpp"
-#include "tests/support/process.hpp"
+#include "tests/support/lacking.hpp"
 #include "tests/unit/floorplan/buildings.hpp"
 
 namespace atrium::floorplan::write_dxf_test {
@@ -19,12 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-// A Python that has ezdxf: Debian's own may not be the first on the path.
-std::string python() {
-  for (const std::string candidate : {"python3", "/usr/bin/python3"})
-    if (test::run_process({candidate, "-c", "import ezdxf"}).exit_code == 0) return candidate;
-  return {};
-}
+std::string python() { return test::python_with("ezdxf"); }
 
 class Dxf : public testing::Test {
  protected:
@@ -63,7 +59,7 @@ std::vector<json> on(const json& root, const std::string& layer, const std::stri
 }
 
 TEST_F(Dxf, IsReadBackWithoutErrorsInTrueSizeAndPlace) {
-  if (python().empty()) GTEST_SKIP() << "python3-ezdxf is not installed";
+  if (python().empty()) ATRIUM_SKIP_LACKING("python3-ezdxf is not installed");
   Mesh mesh = two_rooms();
   mesh.origin = {500000.123, 5400000.456, 300};
   const json root = read_back(plan_of(mesh));
@@ -95,7 +91,7 @@ TEST_F(Dxf, IsReadBackWithoutErrorsInTrueSizeAndPlace) {
 }
 
 TEST_F(Dxf, OpeningsHaveLayersOfTheirOwn) {
-  if (python().empty()) GTEST_SKIP() << "python3-ezdxf is not installed";
+  if (python().empty()) ATRIUM_SKIP_LACKING("python3-ezdxf is not installed");
   const json root = read_back(with_openings());
   const auto gaps = on(root, "A-DOOR", "LWPOLYLINE"), leaves = on(root, "A-DOOR", "LINE"),
              sweeps = on(root, "A-DOOR", "ARC");
@@ -116,7 +112,7 @@ TEST_F(Dxf, OpeningsHaveLayersOfTheirOwn) {
 }
 
 TEST_F(Dxf, DimensionsAreTextsAlongTheirLines) {
-  if (python().empty()) GTEST_SKIP() << "python3-ezdxf is not installed";
+  if (python().empty()) ATRIUM_SKIP_LACKING("python3-ezdxf is not installed");
   Mesh mesh = two_rooms();
   for (auto& v : mesh.vertices) v.head<2>() = Eigen::Rotation2Dd(0.5) * v.head<2>();
   WriteDxf::Params params;
@@ -133,7 +129,7 @@ TEST_F(Dxf, DimensionsAreTextsAlongTheirLines) {
 }
 
 TEST_F(Dxf, EachStoreyHasItsOwnLayers) {
-  if (python().empty()) GTEST_SKIP() << "python3-ezdxf is not installed";
+  if (python().empty()) ATRIUM_SKIP_LACKING("python3-ezdxf is not installed");
   MeshBuilder b;
   b.room(0, 0, 4, 3);
   b.storey = 1;
@@ -149,14 +145,14 @@ TEST_F(Dxf, EachStoreyHasItsOwnLayers) {
 }
 
 TEST_F(Dxf, WhatIsNotKnownIsLeftOut) {
-  if (python().empty()) GTEST_SKIP() << "python3-ezdxf is not installed";
+  if (python().empty()) ATRIUM_SKIP_LACKING("python3-ezdxf is not installed");
   MeshBuilder b;
   b.ceiling(0, 0, 5, 4, 2.6);
   EXPECT_EQ(on(read_back(plan_of(b.mesh)), "A-AREA-IDEN", "TEXT").size(), 2U);  // name and area, no height
 }
 
 TEST_F(Dxf, AnEmptyPlanIsAValidFile) {
-  if (python().empty()) GTEST_SKIP() << "python3-ezdxf is not installed";
+  if (python().empty()) ATRIUM_SKIP_LACKING("python3-ezdxf is not installed");
   EXPECT_TRUE(read_back({})["entities"].empty());
   EXPECT_EQ(host->warnings.size(), 1U);
 }
@@ -186,7 +182,7 @@ FloorPlan real_plan() {
 }
 
 TEST_F(Dxf, ARealDrawingNeedsNoRepair) {
-  if (python().empty()) GTEST_SKIP() << "python3-ezdxf is not installed";
+  if (python().empty()) ATRIUM_SKIP_LACKING("python3-ezdxf is not installed");
   const json root = read_back(real_plan());  // which looks at the audit
   EXPECT_EQ(root["code_page"], "ANSI_1252");
   EXPECT_GT(root["entities"].size(), 60U);
@@ -268,7 +264,7 @@ TEST_F(Dxf, NumbersHaveAllDigitsAndNoExponents) {
 }
 
 TEST_F(Dxf, AnArcsExtentsHoldItsBulge) {
-  if (python().empty()) GTEST_SKIP() << "python3-ezdxf is not installed";
+  if (python().empty()) ATRIUM_SKIP_LACKING("python3-ezdxf is not installed");
   DxfDrawing drawing({10, 20}, {{"A", 1, 25}}, {});
   const double r = std::sqrt(0.5);
   drawing.arc("A", {0, 0}, {r, -r}, {-r, r});  // over 0 and 90 degrees

@@ -66,18 +66,6 @@ bool has_text(const std::string& svg, const std::string& text) {
   return std::find(all.begin(), all.end(), text) != all.end();
 }
 
-Mesh row_of_rooms(double width, double height, int count) {
-  MeshBuilder b;
-  for (int i = 0; i < count; ++i) b.room(i * (width + 0.12), 0, i * (width + 0.12) + width, height);
-  return b.mesh;
-}
-
-FloorPlan tower(int storeys) {
-  MeshBuilder b;
-  for (b.storey = 0; b.storey < storeys; ++b.storey) b.room(0, 0, 5, 4, 3.0 * b.storey, 3.0 * b.storey + 2.6);
-  return plan_of(b.mesh);
-}
-
 // Drawings with their captions keep clear of each other, of the frame and of the title block.
 void expect_drawings_apart(const Sheet& sheet, const FloorPlan& plan) {
   std::vector<Bounds2> boxes;

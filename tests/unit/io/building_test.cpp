@@ -7,7 +7,7 @@
 #include "modules/io/read_building.hpp"
 #include "modules/io/write_building.hpp"
 #include "tests/support/box_building.hpp"
-#include "tests/support/process.hpp"
+#include "tests/support/lacking.hpp"
 
 namespace atrium::io::building_test {
 namespace {
@@ -22,7 +22,7 @@ class BuildingFile : public Files {
     WriteBuilding::run({input(building), std::move(transform)}, {}, context);
     return json::parse(std::ifstream(file));
   }
-  ReadBuilding::Out read() { return ReadBuilding::run({}, {{file.string()}}, context); }
+  ReadBuilding::Out read() { return ReadBuilding::run({{file.string()}}, context); }
   std::string error_of(const json& damaged) {
     std::ofstream(file) << damaged;
     try {
@@ -50,6 +50,20 @@ Building far_away() {
   building.rooms[1].name = "K\u00FCche \"2\"";
   building.faces[5].primitive = -1;
   return building;
+}
+
+TEST_F(BuildingFile, IsReadWithAnyLineEndsAndAMarkInFront) {
+  write(far_away());
+  const std::string plain = bytes(), hash = content_hash(read().building);
+  const auto with_ends = [&](const std::string& end) {
+    std::string text;
+    for (const char c : plain) text += c == '\n' ? end : std::string(1, c);
+    return text;
+  };
+  for (const std::string& text : {with_ends("\r\n"), with_ends("\r"), with_ends(" \t\n"), "\xEF\xBB\xBF" + plain}) {
+    std::ofstream(file, std::ios::binary) << text;
+    EXPECT_EQ(content_hash(read().building), hash);
+  }
 }
 
 TEST_F(BuildingFile, NamesTheUnitOfTheScan) {
@@ -149,10 +163,8 @@ TEST_F(BuildingFile, IsValidByItsSchema) {
       "jsonschema.Draft202012Validator.check_schema(schema)\n"
       "for e in jsonschema.Draft202012Validator(schema).iter_errors(json.load(open(sys.argv[2]))):\n"
       "    print(list(e.path), e.message)\n";
-  std::string python;
-  for (const std::string candidate : {"python3", "/usr/bin/python3"})
-    if (python.empty() && test::run_process({candidate, "-c", "import jsonschema"}).exit_code == 0) python = candidate;
-  if (python.empty()) GTEST_SKIP() << "python3-jsonschema is not installed";
+  const std::string python = test::python_with("jsonschema");
+  if (python.empty()) ATRIUM_SKIP_LACKING("python3-jsonschema is not installed");
   const std::string schema = ATRIUM_SOURCE_DIR "/share/schema/building.schema.json";
   const auto complaints = [&] {
     const auto result = test::run_process({python, "-c", program, schema, file.string()});

@@ -11,7 +11,7 @@ class CloudFiles : public Files {
     WriteCloud::run({input(cloud)}, {{name}, binary}, context);
     ReadScan::Params params;
     params.path.path = path(name);
-    return ReadScan::run({}, params, context).cloud;
+    return ReadScan::run(params, context).cloud;
   }
 };
 
@@ -101,15 +101,15 @@ TEST_F(CloudFiles, PlyKeepsWhereEachPointWasSeenFrom) {
   ReadScan::Params params;
   params.path.path = path("s.ply");
   params.sensor = ReadScan::SensorUse::none;
-  const Cloud none = ReadScan::run({}, params, context).cloud;
+  const Cloud none = ReadScan::run(params, context).cloud;
   EXPECT_TRUE(none.sensors.empty() && none.source.empty());
   params.sensor = ReadScan::SensorUse::origin;
-  const Cloud one = ReadScan::run({}, params, context).cloud;
+  const Cloud one = ReadScan::run(params, context).cloud;
   EXPECT_EQ(one.sensors.size(), 1U);
   EXPECT_TRUE(one.source.empty());
   params.sensor = ReadScan::SensorUse::automatic;
   params.scale = 0.001;
-  const Cloud small = ReadScan::run({}, params, context).cloud;
+  const Cloud small = ReadScan::run(params, context).cloud;
   EXPECT_NEAR(small.origin.x() + small.sensors.at(1).x(), 499.996, 1e-4);
   round_trip(cloud, "s.pcd", true);
   EXPECT_TRUE(warned("places of the 3 sensors"));
@@ -125,7 +125,7 @@ TEST_F(CloudFiles, SensorsThatMakeNoSenseAreRefusedAndThoseOfOthersSkipped) {
   const auto read = [&](const std::string& text) {
     ReadScan::Params params;
     params.path.path = file("s.ply", text);
-    return ReadScan::run({}, params, context).cloud;
+    return ReadScan::run(params, context).cloud;
   };
   const std::string two = "element sensor 2\nproperty float x\nproperty float y\nproperty float z\n";
   EXPECT_EQ(read(ply(two, "0 0 1\n1 1 1\n", "010")).source, (std::vector<std::uint16_t>{0, 1, 0}));

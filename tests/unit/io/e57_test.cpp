@@ -19,7 +19,7 @@ class E57 : public Files {
   Cloud read(const std::string& bytes) {
     ReadScan::Params params;
     params.path.path = file("scan.e57", bytes);
-    return ReadScan::run({}, params, context).cloud;
+    return ReadScan::run(params, context).cloud;
   }
   Cloud read(const E57TestScan& scan) { return read(E57Builder().add(scan).file()); }
   std::string failure(const std::string& bytes) {
@@ -277,7 +277,7 @@ TEST_F(E57, FilesWithoutPointsSaySo) {
   EXPECT_CONTAINS(failure(E57Builder().add(flat).file()),
                   "scan 1: the points have no cartesianZ (there are: cartesianX, cartesianY)");
   E57Builder builder;
-  EXPECT_CONTAINS(error_of([&] { ReadMesh::run({}, {{file("m.e57", builder.add(cartesian(9)).file())}}, context); }),
+  EXPECT_CONTAINS(error_of([&] { ReadMesh::run({{file("m.e57", builder.add(cartesian(9)).file())}}, context); }),
                   "without faces");
 }
 
@@ -349,7 +349,7 @@ TEST_F(E57, WrittenCloudsComeBackWithTheirPlaces) {
   WriteCloud::run({input(cloud)}, {{"w.e57"}, true}, context);
   ReadScan::Params params;
   params.path.path = path("w.e57");
-  const Cloud back = ReadScan::run({}, params, context).cloud;
+  const Cloud back = ReadScan::run(params, context).cloud;
   EXPECT_TRUE(host->warnings.empty()) << warnings();
   ASSERT_EQ(back.size(), cloud.size());
   EXPECT_EQ(back.colours, cloud.colours);

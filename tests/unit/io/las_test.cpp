@@ -14,7 +14,7 @@ class Las : public Files {
     ReadScan::Params params;
     params.path.path = place;
     params.unit = unit;
-    return ReadScan::run({}, params, context).cloud;
+    return ReadScan::run(params, context).cloud;
   }
   Cloud read(const std::string& bytes, ReadScan::Unit unit = ReadScan::Unit::metre) {
     return read_file(file("scan.las", bytes), unit);

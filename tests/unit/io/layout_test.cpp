@@ -51,7 +51,7 @@ TEST_F(Layout, TruthComesBackBitByBit) {
                      synth::Attic::run({}, context).scene}) {
     for (const auto& truth : {scene.truth, turned(scene)}) {
       WriteTruth::run({input(truth)}, {{"truth.json"}}, context);
-      const auto read = ReadLayout::run({}, {{path("truth.json")}}, context);
+      const auto read = ReadLayout::run({{path("truth.json")}}, context);
       EXPECT_EQ(content_hash(read.truth), content_hash(truth));
       EXPECT_EQ(content_hash(read.mesh), content_hash(truth.mesh));
     }
@@ -63,7 +63,7 @@ TEST_F(Layout, TruthWithoutAMeshIsCutIntoTriangles) {
   WriteTruth::run({input(truth)}, {{"truth.json"}}, context);
   const auto text = content("truth.json");
   const auto cut = file("cut.json", text.substr(0, text.find(",\n\"mesh\"")) + "\n}\n");
-  const auto read = ReadLayout::run({}, {{cut}}, context);
+  const auto read = ReadLayout::run({{cut}}, context);
   EXPECT_NEAR(mesh_area(read.mesh), mesh_area(truth.mesh), 1e-6);
   for (const auto& p : read.mesh.vertices) ASSERT_TRUE(p.allFinite());
   // Triangles look where their faces look.
@@ -80,7 +80,7 @@ TEST_F(Layout, PlansOfTurnedTruthStandUpright) {
   double area = 0;
   for (const auto& room : scene.truth.rooms) area += area_vector(room.outline).norm();
   WriteTruth::run({input(turned(scene))}, {{"truth.json"}}, context);
-  const auto plan = ReadLayout::run({}, {{path("truth.json")}}, context).plan;
+  const auto plan = ReadLayout::run({{path("truth.json")}}, context).plan;
   ASSERT_EQ(plan.storeys.size(), 1U);
   EXPECT_NEAR(plan_area(plan), area, 1e-6);
   EXPECT_GT(plan.to_plan.rotation(2, 2), std::cos(2.6 * M_PI / 180));
@@ -99,7 +99,7 @@ TEST_F(Layout, RoomsByTheirCorners) {
   const auto both = file("rooms.json",
                          R"({"rooms": [{"corners": [[0,0],[4,0],[4,5],[0,5]], "name": "hall", "height": 2.5},
                              {"corners": [[4.2,5,3],[4.2,0,3],[9,0,3]], "storey": 1}]})");
-  const auto read = ReadLayout::run({}, {{both}}, context);
+  const auto read = ReadLayout::run({{both}}, context);
   ASSERT_EQ(read.truth.rooms.size(), 2U);
   EXPECT_EQ(read.truth.rooms[0].name, "hall");
   EXPECT_EQ(face_area(read.truth, SurfaceClass::wall), 45);
@@ -113,7 +113,7 @@ TEST_F(Layout, RoomsByTheirCorners) {
   EXPECT_EQ(read.plan.storeys[1].elevation, 3);
   EXPECT_EQ(read.plan.storeys[0].rooms[0].height, 2.5);
   const auto list = file("list.json", "[[[0,0],[0,5],[4,5],[4,0],[0,0]]]");  // closed by repeating a corner
-  EXPECT_EQ(plan_area(ReadLayout::run({}, {{list}}, context).plan), 20);
+  EXPECT_EQ(plan_area(ReadLayout::run({{list}}, context).plan), 20);
 }
 
 /// A headset's layout of an L-shaped room, 4 × 5 m less 1 × 2 m, whose walls end up to 2 cm apart.
@@ -138,7 +138,7 @@ std::string l_room(bool with_last_wall) {
 }
 
 TEST_F(Layout, AHeadsetsPlanesBecomeARoom) {
-  const auto read = ReadLayout::run({}, {{file("layout.json", l_room(true))}}, context);
+  const auto read = ReadLayout::run({{file("layout.json", l_room(true))}}, context);
   ASSERT_EQ(read.truth.rooms.size(), 1U);
   ASSERT_EQ(read.truth.rooms[0].outline.size(), 6U);
   EXPECT_NEAR(plan_area(read.plan), 18, 1e-9);  // corners stand where the walls' lines meet
@@ -154,7 +154,7 @@ TEST_F(Layout, AHeadsetsPlanesBecomeARoom) {
 }
 
 TEST_F(Layout, WallsThatCloseNoRoomAreSaid) {
-  const auto read = ReadLayout::run({}, {{file("layout.json", l_room(false))}}, context);
+  const auto read = ReadLayout::run({{file("layout.json", l_room(false))}}, context);
   EXPECT_TRUE(read.truth.rooms.empty());
   EXPECT_EQ(face_area(read.truth, SurfaceClass::floor), 20);  // as the file has it
   ASSERT_EQ(host->warnings.size(), 2U);
@@ -164,7 +164,7 @@ TEST_F(Layout, WallsThatCloseNoRoomAreSaid) {
 TEST_F(Layout, BadFilesAreErrorsThatNameThePlace) {
   const auto message = [&](const std::string& text) {
     try {
-      ReadLayout::run({}, {{file("bad.json", text)}}, context);
+      ReadLayout::run({{file("bad.json", text)}}, context);
     } catch (const Error& e) {
       return std::string(e.what());
     }
@@ -186,13 +186,13 @@ TEST_F(Layout, BadFilesAreErrorsThatNameThePlace) {
       "faces": [{"class": "roof", "storey": 0, "room": -1}]})")
                 .find("faces[0].class is 'roof'"),
             std::string::npos);
-  EXPECT_THROW(ReadLayout::run({}, {{path("missing.json")}}, context), Error);
+  EXPECT_THROW(ReadLayout::run({{path("missing.json")}}, context), Error);
 }
 
 TEST_F(Layout, AMeshIsRefusedByItsName) {
   for (const char* name : {"truth.ply", "truth.PLY", "scan.pcd", "model.glb", "model.obj"}) {
     try {
-      ReadLayout::run({}, {{file(name, "ply\nformat ascii 1.0\n")}}, context);
+      ReadLayout::run({{file(name, "ply\nformat ascii 1.0\n")}}, context);
       FAIL() << name;
     } catch (const Error& e) {
       EXPECT_NE(std::string(e.what()).find("a layout is JSON, this is a ."), std::string::npos) << e.what();
@@ -207,7 +207,7 @@ TEST_P(QuestLayout, GivesARoomWithAllItsCorners) {
   const auto [name, corners, area] = GetParam();
   const auto place = std::filesystem::path(ATRIUM_SOURCE_DIR) / "../shared/scans" / name / "layout.json";
   if (!std::filesystem::exists(place)) GTEST_SKIP() << "skipped: there is no " << place;
-  const auto read = ReadLayout::run({}, {{place.string()}}, context);
+  const auto read = ReadLayout::run({{place.string()}}, context);
   ASSERT_EQ(read.truth.rooms.size(), 1U);
   EXPECT_EQ(read.truth.rooms[0].outline.size(), corners);
   EXPECT_NEAR(plan_area(read.plan), area, 0.02 * area);

@@ -207,7 +207,7 @@ class Matrix : public Files {
     ReadScan::Params params;
     params.path.path = path(name);
     params.mesh = ReadScan::MeshUse::vertices;
-    return ReadScan::run({}, params, context).cloud;
+    return ReadScan::run(params, context).cloud;
   }
   /// The message of the Error; "" if the file is read.
   std::string outcome(const std::string& name) {

@@ -11,7 +11,7 @@ namespace {
 
 class MeshFiles : public Files {
  protected:
-  Mesh read(const std::string& name) { return ReadMesh::run({}, {{path(name)}}, context).mesh; }
+  Mesh read(const std::string& name) { return ReadMesh::run({{path(name)}}, context).mesh; }
   Mesh parse(const std::string& name, const std::string& text) {
     file(name, text);
     return read(name);
@@ -75,7 +75,7 @@ TEST_F(MeshFiles, ObjReadsAllFormsOfCorners) {
 TEST_F(MeshFiles, ObjVerticesMayBeAPointCloudWithColoursAndNormals) {
   ReadScan::Params params;
   params.path.path = file("p.obj", "v 0 0 0 1 0 0\nvn 0 0 1\nv 1 0 0 0 1 0\nvn 0 1 0\nv 0 1 0 0 0 1\nvn 1 0 0\n");
-  const Cloud cloud = ReadScan::run({}, params, context).cloud;
+  const Cloud cloud = ReadScan::run(params, context).cloud;
   EXPECT_EQ(cloud.colours, (std::vector<Colour>{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}}));
   ASSERT_EQ(cloud.normals.size(), 3U);
   EXPECT_EQ(cloud.normals[1], Eigen::Vector3f(0, 1, 0));
@@ -151,9 +151,9 @@ TEST_F(MeshFiles, AScanOfAMeshIsSampledOnItsFaces) {
   write(mesh, "m.ply");
   ReadScan::Params params;
   params.path.path = path("m.ply");
-  EXPECT_EQ(ReadScan::run({}, params, context).cloud.size(), 4U);  // as many as vertices
+  EXPECT_EQ(ReadScan::run(params, context).cloud.size(), 4U);  // as many as vertices
   params.samples = 500;
-  const Cloud cloud = ReadScan::run({}, params, context).cloud;
+  const Cloud cloud = ReadScan::run(params, context).cloud;
   ASSERT_EQ(cloud.size(), 500U);
   ASSERT_EQ(cloud.normals.size(), 500U);
   EXPECT_EQ(cloud.colours.size(), 500U);
@@ -164,15 +164,15 @@ TEST_F(MeshFiles, AScanOfAMeshIsSampledOnItsFaces) {
     EXPECT_LT(std::min({std::abs(p.x()), std::abs(p.y()), std::abs(p.z()), 0.09 * std::abs(slanted)}), 1e-4);
   }
   params.mesh = ReadScan::MeshUse::vertices;
-  EXPECT_TRUE(ReadScan::run({}, params, context).cloud.normals.empty());
+  EXPECT_TRUE(ReadScan::run(params, context).cloud.normals.empty());
 }
 
 TEST_F(MeshFiles, AMeshWithoutSurfaceCannotBeSampled) {
   ReadScan::Params params;
   params.path.path = file("flat.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n");
-  EXPECT_CONTAINS(error_of([&] { ReadScan::run({}, params, context); }), "flat.obj: ");
+  EXPECT_CONTAINS(error_of([&] { ReadScan::run(params, context); }), "flat.obj: ");
   params.path.path = file("nan.obj", "v 0 0 0\nv 1 0 1\nv nan 2 2\nf 1 2 3\n");
-  EXPECT_CONTAINS(error_of([&] { ReadScan::run({}, params, context); }), "nan.obj: ");
+  EXPECT_CONTAINS(error_of([&] { ReadScan::run(params, context); }), "nan.obj: ");
 }
 
 TEST_F(MeshFiles, EmptyMeshesAreValidFiles) {

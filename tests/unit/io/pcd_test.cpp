@@ -22,7 +22,7 @@ class Pcd : public Files {
  protected:
   Cloud read(const std::string& name, ReadScan::Params params = {}) {
     params.path.path = path(name);
-    return ReadScan::run({}, params, context).cloud;
+    return ReadScan::run(params, context).cloud;
   }
   std::string failure(const std::string& text) {
     file("bad.pcd", text);

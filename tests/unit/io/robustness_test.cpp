@@ -67,7 +67,7 @@ class Robustness : public Files {
     try {
       const std::string place = path(name);
       if (name.ends_with("vg")) {
-        const auto planes = ReadVg::run({}, {{place}}, context).planes;
+        const auto planes = ReadVg::run({{place}}, context).planes;
         for (const auto& p : planes.primitives)
           for (const auto i : p.inliers) EXPECT_LT(i, planes.cloud->size());
         return true;
@@ -75,13 +75,13 @@ class Robustness : public Files {
       ReadScan::Params params;
       params.path.path = place;
       params.mesh = ReadScan::MeshUse::vertices;
-      const Cloud cloud = ReadScan::run({}, params, context).cloud;
+      const Cloud cloud = ReadScan::run(params, context).cloud;
       for (const auto& p : cloud.points) EXPECT_TRUE(p.allFinite());
       for (const std::size_t size : {cloud.normals.size(), cloud.colours.size(), cloud.intensities.size()})
         EXPECT_TRUE(size == 0 || size == cloud.size());
       if (name.ends_with(".e57") || name.ends_with(".las") || name.ends_with(".laz") || name.ends_with(".ptx"))
         return true;  // no meshes
-      const Mesh mesh = ReadMesh::run({}, {{place}}, context).mesh;
+      const Mesh mesh = ReadMesh::run({{place}}, context).mesh;
       for (const auto& t : mesh.triangles)
         for (const auto corner : t) EXPECT_LT(corner, mesh.vertices.size());
       return true;

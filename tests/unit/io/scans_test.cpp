@@ -20,13 +20,13 @@ TEST_P(Scans, HasTheRightCounts) {
   ReadScan::Params params;
   params.path.path = place;
   params.mesh = ReadScan::MeshUse::vertices;
-  const Cloud cloud = ReadScan::run({}, params, context).cloud;
+  const Cloud cloud = ReadScan::run(params, context).cloud;
   EXPECT_EQ(cloud.size(), GetParam().vertices);
   EXPECT_EQ(cloud.colours.size(), GetParam().colours ? cloud.size() : 0);
   EXPECT_EQ(cloud.labels.size(), GetParam().labels ? cloud.size() : 0);
   EXPECT_TRUE(cloud.origin.isZero(0));
   EXPECT_LT(bounds_of(cloud.points, context).extent().maxCoeff(), 60.0F);
-  EXPECT_EQ(ReadMesh::run({}, {{place}}, context).mesh.triangles.size(), GetParam().faces);
+  EXPECT_EQ(ReadMesh::run({{place}}, context).mesh.triangles.size(), GetParam().faces);
 }
 
 INSTANTIATE_TEST_SUITE_P(Real, Scans,

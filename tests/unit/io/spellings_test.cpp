@@ -26,10 +26,10 @@ class Spellings : public Files {
     ReadScan::Params params;
     params.path.path = file(name, text);
     params.mesh = ReadScan::MeshUse::vertices;
-    return ReadScan::run({}, params, context).cloud;
+    return ReadScan::run(params, context).cloud;
   }
   Mesh mesh(const std::string& name, const std::string& text) {
-    return ReadMesh::run({}, {{file(name, text)}}, context).mesh;
+    return ReadMesh::run({{file(name, text)}}, context).mesh;
   }
   std::string failure(const std::string& name, const std::string& text) {
     return error_of([&] { mesh(name, text); });
@@ -337,7 +337,7 @@ TEST_F(Spellings, ScansComeThroughPipes) {
     params.path.path = "/dev/fd/" + std::to_string(ends[0]);
     params.mesh = ReadScan::MeshUse::vertices;
     for (int again = 0; again < 2; ++again)  // who reads it again gets the same
-      EXPECT_EQ(ReadScan::run({}, params, context).cloud.size(), 4U);
+      EXPECT_EQ(ReadScan::run(params, context).cloud.size(), 4U);
     ::close(ends[0]);
   }
 }
@@ -357,10 +357,10 @@ TEST_F(Spellings, PipesThatCannotBeReadSaySo) {
   ::close(ends[1]);
   ReadScan::Params params;
   params.path.path = "/dev/fd/" + std::to_string(ends[0]);
-  EXPECT_CONTAINS(error_of([&] { ReadScan::run({}, params, context); }), "nothing came through the pipe");
+  EXPECT_CONTAINS(error_of([&] { ReadScan::run(params, context); }), "nothing came through the pipe");
   ::close(ends[0]);
   params.path.path = "/dev/zero";
-  EXPECT_CONTAINS(error_of([&] { ReadScan::run({}, params, context); }), "cannot read /dev/zero: it is a device");
+  EXPECT_CONTAINS(error_of([&] { ReadScan::run(params, context); }), "cannot read /dev/zero: it is a device");
 }
 
 }  // namespace

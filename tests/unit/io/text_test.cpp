@@ -11,7 +11,7 @@ class Text : public Files {
   Cloud read(const std::string& text, const std::string& name = "a.xyz") {
     ReadScan::Params params;
     params.path.path = file(name, text);
-    return ReadScan::run({}, params, context).cloud;
+    return ReadScan::run(params, context).cloud;
   }
   std::string failure(const std::string& text, const std::string& name = "a.xyz") {
     return error_of([&] { read(text, name); });

@@ -15,7 +15,7 @@ class Thin : public Files {
     params.path.path = path(name);
     params.voxel = voxel;
     params.unit = unit;
-    return ReadScan::run({}, params, context).cloud;
+    return ReadScan::run(params, context).cloud;
   }
   Cloud gridded(const Cloud& cloud, double size) {
     return filter::VoxelGrid::run({input(cloud)}, {size}, context).cloud;

@@ -8,7 +8,7 @@ namespace {
 
 class Vg : public Files {
  protected:
-  PlanePrimitives read(const std::string& name) { return ReadVg::run({}, {{path(name)}}, context).planes; }
+  PlanePrimitives read(const std::string& name) { return ReadVg::run({{path(name)}}, context).planes; }
   PlanePrimitives parse(const std::string& text) {
     file("a.vg", text);
     return read("a.vg");

@@ -138,9 +138,10 @@ TEST(SynthRaisedRoom, FloorsDifferAndCeilingsDoNot) {
   expect_near(volumes<RaisedRoom>(), {7 * 5 * 3.1, 4 * 3.6 * 2.6});
   // The door's threshold is the higher floor.
   const auto truth = build<RaisedRoom>().truth;
-  for (const auto& o : truth.openings)
-    if (o.room_b >= 0)
-      for (const auto& p : o.outline) EXPECT_GE(p.z(), 0.5 - 1e-12);
+  for (const auto& o : truth.openings) {
+    if (o.room_b < 0) continue;
+    for (const auto& p : o.outline) EXPECT_GE(p.z(), 0.5 - 1e-12);
+  }
 }
 
 TEST(SynthBoxInHall, TheHallIsItsPrismLessTheBox) {

@@ -11,10 +11,10 @@
 
 #include "graph/api/files.hpp"
 #include "graph/api/json_text.hpp"
+#include "graph/farm/submission.hpp"
 #include "graph/sweep/isolated_run.hpp"
 #include "graph/sweep/merge.hpp"
 #include "graph/sweep/recorder.hpp"
-#include "graph/sweep/submission.hpp"
 #include "graph/sweep/sweep_folder.hpp"
 
 namespace atrium {

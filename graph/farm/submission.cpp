@@ -1,4 +1,4 @@
-#include "graph/sweep/submission.hpp"
+#include "graph/farm/submission.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

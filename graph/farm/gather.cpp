@@ -10,10 +10,10 @@
 
 #include "graph/api/files.hpp"
 #include "graph/api/json_text.hpp"
+#include "graph/farm/submission.hpp"
 #include "graph/run/run_folder.hpp"
 #include "graph/sweep/isolated_run.hpp"
 #include "graph/sweep/recorder.hpp"
-#include "graph/sweep/submission.hpp"
 
 namespace atrium {
 namespace {

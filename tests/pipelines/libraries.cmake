@@ -1,0 +1,2 @@
+find_package(PNG REQUIRED)
+list(APPEND libraries PNG::PNG)
