@@ -40,9 +40,11 @@ list(LENGTH headers count)
 if(count LESS 20)
   message(FATAL_ERROR "only ${count} headers are installed")
 endif()
-foreach(header IN LISTS headers)
-  call(0 "" c++ -std=c++20 -fsyntax-only -x c++ -I${prefix}/include/atrium -I/usr/include/eigen3 ${header})
-endforeach()
+list(JOIN headers "\n" lines)
+file(WRITE ${WORK}/headers.txt "${lines}\n")
+cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+call(0 "" xargs -a ${WORK}/headers.txt -P ${cores} -n 1
+     c++ -std=c++20 -fsyntax-only -w -x c++ -I${prefix}/include/atrium -I/usr/include/eigen3)
 
 # What is installed is as good on another machine.
 get_filename_component(source ${here}/../.. ABSOLUTE)
