@@ -110,7 +110,7 @@ FaceEvidence EvidenceFinder::gather(std::size_t index) const {
   evidence.tolerance = std::clamp(noise, params_.tolerance, 2 * params_.tolerance);
   // The reveals of a door in a thin wall lie between its faces: points there are not all on one of them.
   if (const double thickness = thickness_at(index); thickness < params_.max_thickness)
-    evidence.tolerance = std::min(evidence.tolerance, std::max(thickness / 3, std::min(noise, evidence.tolerance)));
+    evidence.tolerance = std::min(evidence.tolerance, std::max(thickness / 3, noise));
   evidence.ways_known = !view.sensors.empty();
   Eigen::AlignedBox2d box;
   for (const auto v : face.outline) box.extend(evidence.frame.to_plane(building_.vertices[v]));
@@ -193,9 +193,10 @@ void EvidenceFinder::look_through(std::size_t index, FaceEvidence& evidence) con
   FaceMask& mask = evidence.mask;
   const Eigen::Vector3d& normal = face.plane.normal;
   const Eigen::Vector3d off = std::max(evidence.tolerance + evidence.spacing, 2 * params_.pixel) * normal;
+  std::vector<Eigen::Vector3d> ways;
   const auto is_seen = [&](int x, int y) {
     const Eigen::Vector3d p = evidence.frame.to_space(mask.centre(x, y)) + off;
-    std::vector<Eigen::Vector3d> ways;
+    ways.clear();
     for (const auto& place : view.places)
       if (const Eigen::Vector3d way = place - p; way.dot(normal) >= grazing * way.norm()) ways.push_back(way);
     const std::size_t enough = evidence.ways_known ? 1 : std::max<std::size_t>(1, ways.size() / 4);

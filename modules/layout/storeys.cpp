@@ -223,26 +223,35 @@ class Finder {
 
   /// Whether most of the storey's walls go on below a level, so that they do not stand on it: it is furniture, all
   /// that was seen where the floor was not.
-  bool is_over_feet(const Level& l, std::int32_t storey) const {
-    constexpr double most = 0.6;
-    const double low = storey > 0 ? cuts_[static_cast<std::size_t>(storey) - 1] : -1e9;
+  bool is_over_feet(const Level& l, const std::vector<WallLine>& walls) const {
+    constexpr double most = 0.6;  // of the walls' length
     double all = 0, below = 0;
-    for (std::size_t i = 0; i < footprints_.size(); ++i) {
-      const auto wall = wall_line(planes_, i, footprints_[i], low, l.height + params_.min_clearance);
-      if (!wall || wall->high < l.height + params_.min_clearance / 2) continue;
-      all += wall->end - wall->begin;
-      below += wall->low < l.height - low_step ? wall->end - wall->begin : 0;
+    for (const WallLine& wall : walls) {
+      if (wall.high < l.height + params_.min_clearance / 2) continue;
+      all += wall.end - wall.begin;
+      below += wall.low < l.height - low_step ? wall.end - wall.begin : 0;
     }
     return below > most * all;
   }
 
+  /// All upright planes, as far as they lie in the storey.
+  std::vector<WallLine> walls_of(std::int32_t storey) const {
+    const auto s = static_cast<std::size_t>(storey);
+    const double low = s > 0 ? cuts_[s - 1] : -1e9, high = s < cuts_.size() ? cuts_[s] : 1e9;
+    std::vector<WallLine> walls;
+    for (std::size_t i = 0; i < footprints_.size(); ++i)
+      if (auto wall = wall_line(planes_, i, footprints_[i], low, high)) walls.push_back(std::move(*wall));
+    return walls;
+  }
+
   void sort_levels(std::int32_t storey, Structure& result) const {
     const Level* main_ceiling = largest(storey, [](const Level& l) { return !l.up; });
+    const std::vector<WallLine> walls = walls_of(storey);
     const Level* main_floor = largest(storey, [&](const Level& l) {
       // What lies right under a larger ceiling is the top of a beam or a lamp.
       const bool at_ceiling = main_ceiling != nullptr && l.area < main_ceiling->area &&
                               l.height > main_ceiling->height - params_.min_clearance;
-      return l.up && l.sheltered >= least_sheltered && !at_ceiling && !is_over_feet(l, storey);
+      return l.up && l.sheltered >= least_sheltered && !at_ceiling && !is_over_feet(l, walls);
     });
     if (main_floor == nullptr) context_.warn(fmt::format("storey {}: no floor was found", storey));
     const double ground = main_floor != nullptr     ? main_floor->height

@@ -11,8 +11,8 @@ namespace atrium::layout {
 /// - A slab is a ceiling and a floor at most max_slab above it, with room to stand (min_clearance) below the one and
 ///   above the other; or, where no ceiling was scanned, a floor above another one. Slabs divide storeys.
 /// - In each storey the largest up-facing plane (area) is the main floor, unless most of the walls go on below it: then
-///   it is furniture. Floors are the up-facing planes of at least
-///   min_area and min_width up to max_step over it, and those of half of its area with room to stand above.
+///   it is furniture. Floors are the up-facing planes of at least min_area and min_width up to max_step over it, and
+///   those of half of its area with room to stand above.
 /// - Ceilings are down-facing planes of at least min_area and min_width, level ones min_clearance or more over the
 ///   main floor, slanted ones that rise to that height.
 /// - Walls are all upright planes of at least min_wall_area that are min_wall_length long: the sides of cupboards too.

@@ -1,24 +1,13 @@
 // Numbers that must not become others without a word: decimal commas, comments, ranges of colours, columns without
 // names, what is lacking; and faces that are not convex.
-#include "files.hpp"
-#include "modules/io/read_mesh.hpp"
-#include "modules/io/read_scan.hpp"
 #include "modules/io/read_vg.hpp"
+#include "text_files.hpp"
 
 namespace atrium::io::odd_numbers_test {
 namespace {
 
-class OddNumbers : public Files {
+class OddNumbers : public TextFiles {
  protected:
-  Cloud scan(const std::string& name, const std::string& text) {
-    ReadScan::Params params;
-    params.path.path = file(name, text);
-    params.mesh = ReadScan::MeshUse::vertices;
-    return ReadScan::run(params, context).cloud;
-  }
-  Mesh mesh(const std::string& name, const std::string& text) {
-    return ReadMesh::run({{file(name, text)}}, context).mesh;
-  }
   std::string scan_failure(const std::string& name, const std::string& text) {
     return error_of([&] { scan(name, text); });
   }

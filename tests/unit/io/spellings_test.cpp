@@ -4,10 +4,8 @@
 #include <csignal>
 #include <thread>
 
-#include "files.hpp"
 #include "graph/api/mapped_file.hpp"
-#include "modules/io/read_mesh.hpp"
-#include "modules/io/read_scan.hpp"
+#include "text_files.hpp"
 
 namespace atrium::io::spellings_test {
 namespace {
@@ -20,17 +18,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-class Spellings : public Files {
+class Spellings : public TextFiles {
  protected:
-  Cloud scan(const std::string& name, const std::string& text) {
-    ReadScan::Params params;
-    params.path.path = file(name, text);
-    params.mesh = ReadScan::MeshUse::vertices;
-    return ReadScan::run(params, context).cloud;
-  }
-  Mesh mesh(const std::string& name, const std::string& text) {
-    return ReadMesh::run({{file(name, text)}}, context).mesh;
-  }
   std::string failure(const std::string& name, const std::string& text) {
     return error_of([&] { mesh(name, text); });
   }

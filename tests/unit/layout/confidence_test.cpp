@@ -183,6 +183,29 @@ TEST(Confidence, RoomsThatOverlapAreDoubted) {
   EXPECT_TRUE(result.doubts("lie in another room", 1));
 }
 
+TEST(Confidence, APartOfARoomWithoutACeilingIsADoubt) {
+  Scene scene = shown({.ceiling = false});
+  scene.ceiling(0, 0, 1.5, 3);
+  const auto part = measured(box(), scene);
+  EXPECT_TRUE(part.doubts("no ceiling was seen over a part"));
+  EXPECT_LT(part.room().confidence, 0.75);
+  EXPECT_FALSE(measured(box(), shown({})).doubts("no ceiling was seen over a part"));
+  // Where no ceiling was scanned at all, that is said instead.
+  EXPECT_FALSE(measured(box(), shown({.ceiling = false})).doubts("over a part"));
+}
+
+TEST(Confidence, RoomsWithoutAWayInAreNamed) {
+  Scene scene = shown({});
+  scene.floor(4.12, 0, 7, 3).ceiling(4.12, 0, 7, 3).walls({{4.12, 0}, {7, 0}, {7, 3}, {4.12, 3}});
+  Building building = BoxBuilding::two_rooms();
+  EXPECT_TRUE(judged(building, scene).building.doubts.empty());
+  building.openings.erase(building.openings.begin());  // the door
+  const auto closed = judged(building, scene);
+  ASSERT_EQ(closed.building.doubts.size(), 1U);
+  EXPECT_EQ(closed.building.doubts[0], "no door or passage was found into 2 of 2 rooms (room 1; room 2)");
+  EXPECT_TRUE(closed.warnings->mention("no door or passage"));
+}
+
 TEST(Confidence, FloorUnderACeilingThatNoRoomHoldsIsWarnedOf) {
   Scene scene = shown({});
   scene.floor(5, 0, 9, 3).ceiling(5, 0, 9, 3);

@@ -46,6 +46,26 @@ TEST(Reality, ABedInACornerIsNoFloor) {
   EXPECT_NEAR(layout.building.rooms[0].volume, 50, 0.01);
 }
 
+TEST(Reality, ABedIsNoFloorWhereTheFloorWasNotScanned) {
+  Scene scene;
+  scene.ceiling(0, 0, 5, 4).walls({{0, 0}, {5, 0}, {5, 4}, {0, 4}}, 0, 0, 2.5);
+  scene.floor(1, 1, 3, 3.2, 0.5);
+  const auto layout = laid_out(scene.planes());
+  ASSERT_EQ(layout.building.rooms.size(), 1U);
+  EXPECT_NEAR(layout.building.rooms[0].height, 2.5, 0.1);
+}
+
+TEST(Reality, ATerraceBehindGlassIsOutsideHoweverWalled) {
+  Scene scene;
+  scene.floor(0, 0, 5, 8).ceiling(0, 0, 5, 4).wall(0, 0, 5, 0).wall(5, 0, 5, 4).wall(0, 4, 0, 0);
+  // Of the front the frame: its sill and its posts.
+  scene.wall(5, 4, 0, 4, 2.2, 2.5).wall(0.3, 4, 0, 4).wall(5, 4, 4.7, 4);
+  scene.wall(5, 4.3, 5, 8, 0, 2).wall(5, 8, 0, 8, 0, 2).wall(0, 8, 0, 4.3, 0, 2);
+  const auto layout = laid_out(scene.planes());
+  ASSERT_EQ(layout.building.rooms.size(), 1U);
+  EXPECT_NEAR(layout.building.rooms[0].area, 20, 0.1);
+}
+
 TEST(Reality, ABeamUnderTheCeilingPartsNoRoom) {
   Scene scene;
   add_box(scene, 0, 0, 6, 4, 0, 3.8);
