@@ -57,6 +57,7 @@ class CachedRun : public testing::Test {
     RunOptions options;
     options.threads = threads;
     options.cache = &cache;
+    options.out = out.path();
     CountingSink sink;
     RunResult result = run_pipeline(builder.pipeline(), options, sink);
     for (const auto& node : result.nodes) EXPECT_EQ(sink.finishes[node.node], 1) << node.node;
@@ -69,7 +70,7 @@ class CachedRun : public testing::Test {
     std::filesystem::remove_all(folder / "values", ignored);
   }
   static std::string hash_of(std::int64_t number) { return content_hash(Counted(number)); }
-  test::TemporaryFolder folder;
+  test::TemporaryFolder folder, out;
 };
 
 std::shared_ptr<const Counted> value(std::int64_t v) { return input(Counted(v)); }
