@@ -10,29 +10,24 @@
 #include <ctime>
 #include <thread>
 
+#include "graph/api/clocks.hpp"
 #include "graph/api/error.hpp"
 #include "graph/api/files.hpp"
 
 namespace atrium {
 namespace {
 
-double cpu_seconds_of_thread() {
-  timespec now{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// Tells the host what a helping thread's piece cost (the loop's own thread is timed by who runs the node). Of pieces
 /// within pieces the outermost counts.
 class HelpTimer {
  public:
   HelpTimer(ContextHost& host, bool helping)
-      : host_(host), helping_(helping && !inside), outermost_(!inside), start_(helping_ ? cpu_seconds_of_thread() : 0) {
+      : host_(host), helping_(helping && !inside), outermost_(!inside), start_(helping_ ? thread_cpu_seconds() : 0) {
     inside = true;
   }
   ~HelpTimer() {
     if (outermost_) inside = false;
-    if (helping_) host_.helped(cpu_seconds_of_thread() - start_);
+    if (helping_) host_.helped(thread_cpu_seconds() - start_);
   }
   HelpTimer(const HelpTimer&) = delete;
   HelpTimer& operator=(const HelpTimer&) = delete;

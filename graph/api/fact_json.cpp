@@ -1,5 +1,7 @@
 #include "graph/api/fact_json.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -8,20 +10,17 @@ namespace atrium {
 
 using Json = nlohmann::ordered_json;
 
-Json fact_json(const Fact& fact) {
-  Json json{{"name", fact.name}};
-  std::visit([&](const auto& value) { json["value"] = value; }, fact.value);
-  const auto* number = std::get_if<double>(&fact.value);
-  if (number != nullptr && !std::isfinite(*number)) {
+void to_json(Json& json, const Fact& fact) {
+  json = {{"name", fact.name}, {"value", value_json(fact)}};
+  if (const auto* number = std::get_if<double>(&fact.value); number != nullptr && !std::isfinite(*number)) {
     json["value"] = nullptr;
-    json["special"] = std::isnan(*number) ? "nan" : *number > 0 ? "inf" : "-inf";
+    json["special"] = fmt::format("{}", std::isnan(*number) ? std::abs(*number) : *number);
   }
   if (!fact.unit.empty()) json["unit"] = fact.unit;
-  return json;
 }
 
-Fact read_fact(const Json& json) {
-  Fact fact{json.value("name", ""), {}, json.value("unit", "")};
+void from_json(const Json& json, Fact& fact) {
+  fact = {json.value("name", ""), {}, json.value("unit", "")};
   const Json& value = json.at("value");
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (value.is_boolean())
@@ -36,7 +35,29 @@ Fact read_fact(const Json& json) {
     fact.value = json.value("special", "") == "inf"    ? infinity
                  : json.value("special", "") == "-inf" ? -infinity
                                                        : std::nan("");
-  return fact;
+}
+
+std::optional<double> number_of(const Fact& fact) {
+  return std::visit(
+      [](const auto& value) -> std::optional<double> {
+        if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>)
+          return static_cast<double>(value);
+        else
+          return std::nullopt;
+      },
+      fact.value);
+}
+
+std::string fact_text(const Fact& fact) {
+  if (const auto* number = std::get_if<double>(&fact.value)) {
+    const bool whole = std::abs(*number) < 1e15 && *number == std::trunc(*number);
+    return whole ? fmt::format("{:.0f}", *number) : fmt::format("{:.6g}", *number);
+  }
+  return std::visit([](const auto& value) { return fmt::format("{}", value); }, fact.value);
+}
+
+Json value_json(const Fact& fact) {
+  return std::visit([](const auto& value) { return Json(value); }, fact.value);
 }
 
 }  // namespace atrium

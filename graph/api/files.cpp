@@ -17,6 +17,7 @@
 
 #include "graph/api/error.hpp"
 #include "graph/api/folder_lock.hpp"
+#include "graph/api/text.hpp"
 #include "graph/api/walk.hpp"
 
 namespace atrium {
@@ -30,13 +31,9 @@ constexpr std::string_view unfinished_end = ".part";
 std::string machine_token() {
   std::string text;
   std::ifstream("/proc/sys/kernel/random/boot_id") >> text;
-  std::array<char, 256> name{};
-  if (::gethostname(name.data(), name.size() - 1) == 0) text += std::string("\n") + name.data();
   std::error_code ignored;
-  text += "\n" + fs::read_symlink("/proc/self/ns/pid", ignored).string();
-  ContentHash hash;
-  hash.bytes(text.data(), text.size());
-  return hash.hex().substr(0, 8);
+  text += "\n" + host_name() + "\n" + fs::read_symlink("/proc/self/ns/pid", ignored).string();
+  return hash_of_text(text).substr(0, 8);
 }
 
 const std::string& this_machine() {

@@ -188,6 +188,31 @@ struct FlatSink {
   }
 };
 
+/// Whether the compiler knows an enumerator of that value: it spells any other one as a cast, "(E)7".
+template <class E, E value>
+consteval bool is_enumerator() {
+  std::string_view text = __PRETTY_FUNCTION__;
+  text.remove_prefix(text.rfind("value = ") + std::string_view("value = ").size());
+  return !text.starts_with('(');
+}
+/// How many enumerators there are from 0 on without a gap. Those of an enum on a port are to be numbered so.
+template <class E, std::uint64_t count = 0>
+consteval std::uint64_t enumerators() {
+  if constexpr (is_enumerator<E, static_cast<E>(count)>())
+    return enumerators<E, count + 1>();
+  else
+    return count;
+}
+/// Throws Error if an enum has none of its values, which would be undefined behaviour or an index out of range later.
+template <class T>
+void check_enum(const T& value) {
+  if constexpr (std::is_enum_v<T>) {
+    if (static_cast<std::uint64_t>(value) >= enumerators<T>()) throw Error("an enum has none of its values");
+  } else if constexpr (IsFlatArray<T>::value) {
+    for (const auto& item : value) check_enum(item);
+  }
+}
+
 template <class T>
 void read_flat(T& value, FlatReader& in);
 
@@ -202,6 +227,8 @@ void read_range(T& value, FlatReader& in) {
   }
   if constexpr (is_block<T>()) {
     in.array(value.data(), size * sizeof(Item));
+    if constexpr (std::is_enum_v<Item> || IsFlatArray<Item>::value)
+      for (const auto& item : value) check_enum(item);
   } else if constexpr (requires { std::tuple_size<T>::value; }) {
     for (auto& item : value) read_flat(item, in);
   } else {
@@ -241,6 +268,7 @@ void read_flat(T& value, FlatReader& in) {
     value = byte == 1;
   } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
     in.bytes(&value, sizeof(T));
+    check_enum(value);
   } else if constexpr (EigenFixed<T>) {
     in.bytes(value.data(), sizeof(*value.data()) * static_cast<std::size_t>(value.size()));
   } else if constexpr (HasContents<T>) {

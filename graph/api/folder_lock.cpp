@@ -12,15 +12,12 @@
 #include <system_error>
 
 #include "graph/api/error.hpp"
+#include "graph/api/text.hpp"
 
 namespace atrium {
 namespace {
 
-std::string who_am_i() {
-  std::array<char, 256> host{};
-  const bool named = ::gethostname(host.data(), host.size() - 1) == 0;
-  return fmt::format("process {} on {}\n", ::getpid(), named ? host.data() : "an unknown machine");
-}
+std::string who_am_i() { return fmt::format("process {} on {}\n", ::getpid(), host_name()); }
 
 std::string read_holder(int file) {
   std::array<char, 400> text{};

@@ -47,14 +47,6 @@ const WrittenUnit* find_unit(std::string_view symbol) {
   return nullptr;
 }
 
-std::vector<std::string> units_of(const Unit& unit) {
-  std::vector<std::string> symbols;
-  for (const auto& written : written_units)
-    if (written.dimension == unit.dimension) symbols.emplace_back(written.symbol);
-  if (symbols.empty() && !unit.symbol.empty()) symbols.emplace_back(unit.symbol);
-  return symbols;
-}
-
 /// "length", "share", "plain number": a dimension as a user calls it.
 std::string_view noun(std::string_view dimension) {
   if (dimension == "ratio") return "share";
@@ -216,6 +208,8 @@ void check_shape(const ParamInfo& info, const RawValue& raw) {
                            info.kind == ParamKind::boolean ? "true or false" : with_article(noun(info.unit.dimension)),
                            text));
   }
+  if (info.kind == ParamKind::input_paths && static_cast<double>(raw.items.size()) < info.min)
+    fail(info, fmt::format("'{}' has no file", info.name));
   if (info.length > 0 && raw.items.size() != info.length)
     fail(info, fmt::format("'{}' is a list of {}, not of {}", info.name, info.length, raw.items.size()));
 }
@@ -261,13 +255,14 @@ std::string kind_name(const ParamInfo& info) {
       return fmt::format("list of {}{}", info.length > 0 ? fmt::format("{} ", info.length) : "",
                          info.unit.dimension == "number" ? "numbers" : fmt::format("{}s", noun(info.unit.dimension)));
     case ParamKind::texts: return "list of texts";
-    case ParamKind::input_paths: return "list of files that exist";
+    case ParamKind::input_paths: return info.min >= 1 ? "file that exists, or a list" : "list of files that exist";
   }
   return {};
 }
 
 std::string bounds_text(const ParamInfo& info) {
   // The limits of the C++ type are no news to a user.
+  if (info.kind == ParamKind::input_paths) return {};
   const bool integer = info.kind == ParamKind::integer;
   const bool low = std::isfinite(info.min) && !(integer && info.min <= -2147483648.0);
   const bool high = std::isfinite(info.max) && !(integer && info.max >= 2147483647.0);
@@ -278,6 +273,14 @@ std::string bounds_text(const ParamInfo& info) {
 }
 
 }  // namespace
+
+std::vector<std::string> units_of(const Unit& unit) {
+  std::vector<std::string> symbols;
+  for (const auto& written : written_units)
+    if (written.dimension == unit.dimension) symbols.emplace_back(written.symbol);
+  if (symbols.empty() && !unit.symbol.empty()) symbols.emplace_back(unit.symbol);
+  return symbols;
+}
 
 ParamValue parse_param(const ParamInfo& info, const RawValue& raw) {
   check_shape(info, raw);
@@ -314,6 +317,7 @@ std::string format_param(const ParamInfo& info, const ParamValue& value) {
 }
 
 bool is_required(const ParamInfo& info) {
+  if (info.kind == ParamKind::input_paths) return info.min >= 1;  // the least number of files
   return (info.kind == ParamKind::input_path || info.kind == ParamKind::output_path) &&
          std::get<std::string>(info.initial).empty();
 }

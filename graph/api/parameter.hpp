@@ -73,6 +73,9 @@ std::string format_param(const ParamInfo& info, const ParamValue& value);
 /// "length, 0 m to 10 m, default 0.5 m": what a parameter accepts, for help texts.
 std::string describe_param(const ParamInfo& info);
 
+/// What may be written behind a number of that unit's dimension: "km", "m", "cm", …
+std::vector<std::string> units_of(const Unit& unit);
+
 /// A path whose default is empty must be set.
 bool is_required(const ParamInfo& info);
 
@@ -170,6 +173,7 @@ ParamValue to_value(const T& v) {
     return static_cast<double>(v);
   } else if constexpr (std::is_same_v<T, std::vector<InputPath>>) {
     std::vector<std::string> paths;
+    paths.reserve(v.size());
     for (const auto& p : v) paths.push_back(p.path);
     return paths;
   } else {

@@ -28,4 +28,10 @@ std::string ContentHash::hex() const {
   return text;
 }
 
+std::string hash_of_text(std::string_view text) {
+  ContentHash hash;
+  hash.bytes(text.data(), text.size());
+  return hash.hex();
+}
+
 }  // namespace atrium

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -24,6 +25,8 @@ class ContentHash {
  private:
   XXH3_state_s* state_;
 };
+/// Of the bytes.
+std::string hash_of_text(std::string_view text);
 
 namespace detail {
 

@@ -97,7 +97,7 @@ std::optional<CacheRecord> Cache::find(const std::string& type, const std::strin
   return record;
 }
 
-bool Cache::restore(const CacheRecord::File& file, const fs::path& target) {
+bool Cache::restore(const Artefact& file, const fs::path& target) {
   const fs::path source = places_.file(file.hash);
   std::optional<ReadFile> kept;
   try {
@@ -249,11 +249,13 @@ bool Cache::keep_value(const FlatType& type, std::shared_ptr<const void> data, c
   waiting_bytes_ += bytes;
   jobs_.push_back({&type, std::move(data), hash, bytes});
   try {
-    if (!writer_.joinable()) writer_ = std::thread([this] { work(); });
-    wake_.notify_one();
+    if (options_.in_background && !writer_.joinable()) writer_ = std::thread([this] { work(); });
   } catch (const std::system_error&) {  // no thread to be had: this one writes
-    while (!jobs_.empty()) write_next(lock);
   }
+  if (writer_.joinable())
+    wake_.notify_one();
+  else
+    while (!jobs_.empty()) write_next(lock);
   return true;
 }
 

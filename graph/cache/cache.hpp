@@ -21,6 +21,8 @@ struct CacheOptions {
   std::uint64_t most_bytes = 20'000'000'000;  ///< what was not used for longest is removed above that
   /// Values are kept only if computing them again would take longer than writing them. True: always (tests).
   bool keep_all = false;
+  /// Values are written by a thread of their own, beside the nodes that run. False: by the one that made them.
+  bool in_background = true;
 };
 
 /// What earlier runs computed, by what it depends on. Two things are kept of a node: its record (small, always), by its
@@ -50,7 +52,7 @@ class Cache {
   /// The record of a key, or nothing.
   std::optional<CacheRecord> find(const std::string& type, const std::string& key);
   /// Puts a copy of a kept file to `target`; false if it is not there any more. Throws Error if it cannot be written.
-  bool restore(const CacheRecord::File& file, const std::filesystem::path& target);
+  bool restore(const Artefact& file, const std::filesystem::path& target);
   /// A value, or null. One that is alive in this process, or part of one, is not loaded a second time.
   std::shared_ptr<const void> load(const FlatType& type, const std::string& hash);
   bool has_value(const FlatType& type, const std::string& hash) const;
@@ -61,7 +63,7 @@ class Cache {
   /// Removes a record that does not say any more what its node gives.
   void forget(const std::string& type, const std::string& key);
   /// Remembers a value while it lives, and keeps it if making it again would take longer (`cost`, seconds) than writing
-  /// it. Written in the background. Returns whether it is, or will be, there.
+  /// it. Returns whether it is, or will be, there.
   bool keep_value(const FlatType& type, std::shared_ptr<const void> data, const std::string& hash, std::uint64_t bytes,
                   double cost);
   /// Waits until all is written; removes what is too much.

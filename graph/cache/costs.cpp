@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "graph/cache/nearest.hpp"
+#include "graph/cache/records.hpp"
 
 namespace atrium {
 namespace {

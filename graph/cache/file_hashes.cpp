@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <ctime>
 #include <system_error>
 #include <vector>
@@ -88,19 +89,66 @@ std::string remembered_text(const fs::path& file) {
   }
 }
 
+/// "%20" is a blank.
+std::string without_percents(std::string_view uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned code = 0;
+    const bool coded =
+        uri[i] == '%' && i + 2 < uri.size() && std::from_chars(&uri[i + 1], &uri[i] + 3, code, 16).ptr == &uri[i] + 3;
+    text += coded ? static_cast<char>(code) : uri[i];
+    i += coded ? 2 : 0;
+  }
+  return text;
+}
+
+/// A .gltf names files that hold its numbers and images: those that are there. Empty for all other files.
+std::vector<fs::path> named_by(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  std::vector<fs::path> named;
+  if (extension != ".gltf") return named;
+  const std::string text = remembered_text(file);
+  constexpr std::string_view key = "\"uri\"", blanks = " \t\r\n";
+  for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at)) {
+    at = text.find_first_not_of(blanks, at + key.size());
+    if (at == std::string::npos || text[at] != ':') continue;
+    at = text.find_first_not_of(blanks, at + 1);
+    if (at == std::string::npos || text[at] != '"') continue;
+    const std::size_t end = std::min(text.find('"', at + 1), text.size());
+    const std::string_view uri = std::string_view(text).substr(at + 1, end - at - 1);
+    std::error_code ignored;
+    if (!uri.starts_with("data:"))
+      if (fs::path place = file.parent_path() / without_percents(uri); fs::is_regular_file(place, ignored))
+        named.push_back(std::move(place));
+  }
+  return named;
+}
+
 }  // namespace
 
 std::string FileHashes::fingerprint(const fs::path& path) {
   const struct stat info = status_of(path);
-  if (!S_ISDIR(info.st_mode)) return text_of(info);
   std::string text;
+  if (!S_ISDIR(info.st_mode)) {
+    text = text_of(info);
+    for (const auto& file : named_by(path)) text += " " + text_of(status_of(file));
+    return text;
+  }
   for (const auto& file : files_in(path)) text += file.string() + " " + text_of(status_of(file)) + "\n";
   return text;
 }
 
 std::string FileHashes::of(const fs::path& path) {
-  if (!S_ISDIR(status_of(path).st_mode)) return of_file(path);
   std::string text;
+  if (!S_ISDIR(status_of(path).st_mode)) {
+    const auto named = named_by(path);
+    if (named.empty()) return of_file(path);
+    text = of_file(path);
+    for (const auto& file : named) text += " " + of_file(file);
+    return hash_of_text(text);
+  }
   for (const auto& file : files_in(path)) text += file.lexically_relative(path).string() + " " + of_file(file) + "\n";
   return hash_of_text(text);
 }

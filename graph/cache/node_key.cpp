@@ -35,7 +35,7 @@ NodeKey make_key(const PipelineNode& node, const std::vector<std::vector<std::st
     } else if (info.kind == ParamKind::input_paths) {
       const auto& paths = std::get<std::vector<std::string>>(node.params[i]);
       for (std::size_t k = 0; k < paths.size(); ++k)
-        add_file(key, fmt::format("{}[{}]", info.name, k), paths[k], files);
+        add_file(key, paths.size() == 1 ? info.name : fmt::format("{}[{}]", info.name, k), paths[k], files);
     } else {
       key.fields.push_back({info.name, format_param(info, node.params[i])});
     }

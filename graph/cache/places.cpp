@@ -23,12 +23,6 @@ std::filesystem::path default_cache_folder() {
   return home.empty() ? "" : home + "/.cache/atrium";
 }
 
-std::string hash_of_text(std::string_view text) {
-  ContentHash hash;
-  hash.bytes(text.data(), text.size());
-  return hash.hex();
-}
-
 bool is_content_hash(std::string_view text) {
   return text.size() == 32 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }

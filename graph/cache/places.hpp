@@ -31,8 +31,6 @@ struct CachePlaces {
 /// ATRIUM_CACHE, or $XDG_CACHE_HOME/atrium, or ~/.cache/atrium; empty if ATRIUM_CACHE is "off" or there is no home.
 std::filesystem::path default_cache_folder();
 
-/// Of the bytes, as 32 hexadecimal digits.
-std::string hash_of_text(std::string_view text);
 /// Whether it can be a hash: 32 hexadecimal digits, and so no path.
 bool is_content_hash(std::string_view text);
 

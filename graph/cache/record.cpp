@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/api/fact_json.hpp"
+#include "graph/api/json_fields.hpp"
 #include "graph/api/json_text.hpp"
 #include "graph/cache/places.hpp"
 
@@ -12,72 +13,37 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr int version = 3;
 
-Json outputs_json(const CacheRecord& record) {
-  Json outputs = Json::array();
-  for (const auto& output : record.outputs) {
-    Json facts = Json::array();
-    for (const auto& fact : output.facts) facts.push_back(fact_json(fact));
-    outputs.push_back({{"port", output.port},
-                       {"type", output.type},
-                       {"bytes", output.bytes},
-                       {"hash", output.hash},
-                       {"facts", std::move(facts)}});
-  }
-  return outputs;
-}
-
-/// It becomes the name of a file.
-std::string hash_at(const Json& json) {
-  std::string hash = json.at("hash").get<std::string>();
-  if (!is_content_hash(hash)) throw Error("a record names a file by what is no hash");
-  return hash;
-}
-
-CacheRecord from_json(const Json& json) {
-  CacheRecord record;
-  record.key = json.at("key").get<std::string>();
-  for (const auto& field : json.at("fields"))
-    record.fields.push_back({field.at(0).get<std::string>(), field.at(1).get<std::string>()});
-  record.node = json.at("node").get<std::string>();
-  record.made = json.at("made").get<std::string>();
-  for (const auto& json_output : json.at("outputs")) {
-    auto& output = record.outputs.emplace_back(CacheRecord::Output{json_output.at("port").get<std::string>(),
-                                                                   json_output.at("type").get<std::string>(),
-                                                                   json_output.at("bytes").get<std::uint64_t>(),
-                                                                   hash_at(json_output),
-                                                                   {}});
-    for (const auto& fact : json_output.at("facts")) output.facts.push_back(read_fact(fact));
-  }
-  record.warnings = json.at("warnings").get<std::vector<std::string>>();
-  for (const auto& file : json.at("files"))
-    record.files.push_back({file.at("path").get<std::string>(), file.at("bytes").get<std::uint64_t>(), hash_at(file)});
-  record.wall = json.at("wall_seconds").get<double>();
-  record.cpu = json.at("cpu_seconds").get<double>();
-  record.peak_memory = json.at("peak_memory").get<std::uint64_t>();
-  if (const Json& growth = json.at("growth"); !growth.is_null()) record.growth = growth.get<std::uint64_t>();
-  return record;
-}
+constexpr std::tuple output_fields{json_field("port", &OutputRecord::port), json_field("type", &OutputRecord::type),
+                                   json_field("bytes", &OutputRecord::bytes),
+                                   optional_json_field("hash", &OutputRecord::hash),
+                                   optional_json_field("facts", &OutputRecord::facts)};
+constexpr std::tuple artefact_fields{json_field("path", &Artefact::path), json_field("bytes", &Artefact::bytes),
+                                     optional_json_field("hash", &Artefact::hash)};
+constexpr std::tuple record_fields{
+    json_field("key", &CacheRecord::key),         json_field("fields", &CacheRecord::fields),
+    json_field("node", &CacheRecord::node),       json_field("made", &CacheRecord::made),
+    json_field("outputs", &CacheRecord::outputs), json_field("warnings", &CacheRecord::warnings),
+    json_field("files", &CacheRecord::files),     json_field("wall_seconds", &CacheRecord::wall),
+    json_field("cpu_seconds", &CacheRecord::cpu), json_field("peak_memory", &CacheRecord::peak_memory)};
 
 }  // namespace
 
+void to_json(Json& json, const OutputRecord& output) { json = fields_json(output, output_fields); }
+void from_json(const Json& json, OutputRecord& output) { read_fields(json, output, output_fields); }
+void to_json(Json& json, const Artefact& file) { json = fields_json(file, artefact_fields); }
+void from_json(const Json& json, Artefact& file) { read_fields(json, file, artefact_fields); }
+
+// As a list, which is shorter: most of a record are these.
+void to_json(Json& json, const NodeKey::Field& field) { json = Json::array({field.name, field.value}); }
+void from_json(const Json& json, NodeKey::Field& field) {
+  json.at(0).get_to(field.name);
+  json.at(1).get_to(field.value);
+}
+
 std::string record_text(const CacheRecord& record) {
-  Json fields = Json::array();
-  for (const auto& field : record.fields) fields.push_back({field.name, field.value});
-  Json files = Json::array();
-  for (const auto& file : record.files)
-    files.push_back({{"path", file.path}, {"bytes", file.bytes}, {"hash", file.hash}});
-  const Json json{{"version", version},
-                  {"key", record.key},
-                  {"fields", std::move(fields)},
-                  {"node", record.node},
-                  {"made", record.made},
-                  {"outputs", outputs_json(record)},
-                  {"warnings", record.warnings},
-                  {"files", std::move(files)},
-                  {"wall_seconds", record.wall},
-                  {"cpu_seconds", record.cpu},
-                  {"peak_memory", record.peak_memory},
-                  {"growth", record.growth ? Json(*record.growth) : Json()}};
+  Json json{{"version", version}};
+  json.update(fields_json(record, record_fields));
+  json["growth"] = record.growth ? Json(*record.growth) : Json();
   const std::string text = json_text(json) + "\n";
   return hash_of_text(text) + "\n" + text;
 }
@@ -90,12 +56,17 @@ std::optional<CacheRecord> read_record(const std::string& text) {
   try {
     const Json json = read_json(rest);
     if (json.at("version") != version) return std::nullopt;
-    CacheRecord record = from_json(json);
-    if (NodeKey{record.fields}.hex() != record.key) return std::nullopt;
+    CacheRecord record;
+    read_fields(json, record, record_fields);
+    if (const Json& growth = json.at("growth"); !growth.is_null()) record.growth = growth.get<std::uint64_t>();
+    // Hashes become names of files.
+    const auto is_hashed = [](const auto& part) { return is_content_hash(part.hash); };
+    if (NodeKey{record.fields}.hex() != record.key ||
+        !std::all_of(record.outputs.begin(), record.outputs.end(), is_hashed) ||
+        !std::all_of(record.files.begin(), record.files.end(), is_hashed))
+      return std::nullopt;
     return record;
   } catch (const Json::exception&) {
-    return std::nullopt;
-  } catch (const Error&) {
     return std::nullopt;
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,26 +10,34 @@
 
 namespace atrium {
 
+/// What one output of a node was.
+struct OutputRecord {
+  std::string port, type;
+  std::uint64_t bytes = 0;  ///< held by the value itself, without what it shares with others
+  std::string hash;         ///< of its contents; empty: not taken
+  std::vector<Fact> facts;  ///< what is printed of it
+};
+void to_json(nlohmann::ordered_json& json, const OutputRecord& output);
+void from_json(const nlohmann::ordered_json& json, OutputRecord& output);
+
+/// A file that a node wrote.
+struct Artefact {
+  std::string path;  ///< relative to the folder that its record is of; absolute if it is not in it
+  std::uint64_t bytes = 0;
+  std::string hash = {};  ///< of its bytes; empty: not taken
+};
+void to_json(nlohmann::ordered_json& json, const Artefact& file);
+void from_json(const nlohmann::ordered_json& json, Artefact& file);
+
 /// What a node did when it was computed: all that a run shows of it, without the values themselves.
 struct CacheRecord {
-  struct Output {
-    std::string port, type;
-    std::uint64_t bytes = 0;
-    std::string hash;
-    std::vector<Fact> facts;
-  };
-  struct File {
-    std::string path;  ///< relative to where the node writes
-    std::uint64_t bytes = 0;
-    std::string hash;
-  };
   std::string key;
   std::vector<NodeKey::Field> fields;  ///< of the key
   std::string node;                    ///< the address under which it was computed
   std::string made;                    ///< when: UTC, ISO 8601
-  std::vector<Output> outputs;
+  std::vector<OutputRecord> outputs;
   std::vector<std::string> warnings;
-  std::vector<File> files;
+  std::vector<Artefact> files;    ///< relative to where the node writes
   double wall = 0, cpu = 0;       ///< seconds
   std::uint64_t peak_memory = 0;  ///< of the process, bytes
   /// Of the process's memory above what was there when the node began, at most, bytes; nothing: it did not run alone.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/api/json_text.hpp"
+#include "graph/api/text.hpp"
 #include "graph/cache/cache_folder.hpp"
 #include "graph/cache/upkeep.hpp"
 #include "graph/cli/verbs.hpp"
@@ -46,8 +47,10 @@ int stat(const CacheArguments& options) {
     return ok;
   }
   fmt::print("{}\n", places.folder.string());
-  for (const auto& [name, share] : shares) fmt::print("{:8} {:>8}  {:>8}\n", name, share.files, size_text(share.bytes));
-  for (const auto& [type, records] : contents.of_type) fmt::print("  {:28} {:>6}\n", type, records);
+  std::vector<std::vector<std::string>> rows, types;
+  for (const auto& [name, share] : shares) rows.push_back({name, std::to_string(share.files), size_text(share.bytes)});
+  for (const auto& [type, records] : contents.of_type) types.push_back({type, std::to_string(records)});
+  fmt::print("{}{}", aligned(rows, {false, true, true}), aligned(types, {false, true}, "  "));
   return ok;
 }
 
@@ -87,46 +90,6 @@ int verify(const CacheArguments& options) {
 }
 
 }  // namespace
-
-void add_cache_options(CLI::App& verb, CacheChoice& choice) {
-  verb.add_option("--cache", choice.folder,
-                  "the folder of what earlier runs computed (default: ATRIUM_CACHE, or atrium in the user's cache; "
-                  "ATRIUM_CACHE=off: none)")
-      ->type_name("DIR");
-  verb.add_flag("--no-cache", choice.off, "compute everything, keep nothing");
-  add_size(verb, "--cache-size", choice.size, "what is not used for longest is removed above this size")
-      ->capture_default_str();
-}
-
-CLI::Option* add_size(CLI::App& verb, const std::string& name, std::string& size, const std::string& text) {
-  const auto problem = [](const std::string& given) -> std::string {
-    try {
-      read_size(given);
-      return {};
-    } catch (const Error& error) {
-      return std::string(error.what()) + " (" + error.help() + ")";
-    }
-  };
-  return verb.add_option(name, size, text)->type_name("SIZE")->check(CLI::Validator(problem, ""));
-}
-
-std::unique_ptr<Cache> open_cache(const CacheChoice& choice) {
-  const fs::path folder = choice.folder.empty() ? default_cache_folder() : fs::path(choice.folder);
-  if (choice.off || folder.empty()) return nullptr;
-  CacheOptions options;
-  options.folder = folder;
-  options.most_bytes = read_size(choice.size);
-  try {
-    return std::make_unique<Cache>(options);
-  } catch (const NoCacheFolder& error) {
-    const std::string problem = fmt::format("{} ({})", error.what(), error.help());
-    if (!choice.folder.empty()) throw CLI::ValidationError("--cache", problem);
-    say("warning: without a cache: {}\n", problem);
-  } catch (const Error& error) {
-    say("warning: without a cache: {}\n", error.what());
-  }
-  return nullptr;
-}
 
 void add_cache(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("cache", "What is kept of earlier runs: shows it, makes it smaller, checks it.");

@@ -50,13 +50,6 @@ void print_check_summary(const LoadResult& result) {
 
 }  // namespace
 
-std::vector<Override> to_overrides(const std::vector<std::string>& texts) {
-  std::vector<Override> overrides;
-  overrides.reserve(texts.size());
-  for (const auto& text : texts) overrides.push_back({text, "-s " + text});
-  return overrides;
-}
-
 std::string counted(std::size_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
@@ -75,11 +68,7 @@ void add_check(CLI::App& app, int& exit_code) {
   auto* verb =
       app.add_subcommand("check", "Checks a pipeline file: every mistake with its place, before anything runs.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("FILE", options->file,
-                   "the pipeline file, the name of an installed one, or a picture that a run has made (PNG)")
-      ->required()
-      ->type_name("");
-  add_settings(*verb, options->settings);
+  add_pipeline(*verb, options->file, options->settings);
   verb->add_flag("--json", options->json, "findings as JSON on stdout");
   verb->callback([options, &exit_code] {
     Registry registry;
@@ -92,15 +81,6 @@ void add_check(CLI::App& app, int& exit_code) {
     if (!options->json && result.errors.empty()) print_check_summary(result);
     exit_code = result.errors.empty() ? ok : invalid;
   });
-}
-
-void add_settings(CLI::App& verb, std::vector<std::string>& settings) {
-  verb.add_option("-s,--set", settings,
-                  "NODE.PARAMETER=VALUE, NODE.type=TYPE, NODE.pipeline=FILE or VARIABLE=VALUE; may be repeated")
-      ->type_name("ADDRESS=VALUE")
-      ->expected(1)
-      ->take_all()
-      ->allow_extra_args(false);
 }
 
 }  // namespace atrium::cli

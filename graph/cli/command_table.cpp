@@ -36,7 +36,7 @@ CommandOption read_option(const CLI::Option& option) {
   for (const auto& name : option.get_snames()) result.names.push_back("-" + name);
   for (const auto& name : option.get_lnames()) result.names.push_back("--" + name);
   result.text = option.get_description();
-  result.standard = option.get_default_str();
+  result.default_value = option.get_default_str();
   result.required = option.get_required();
   if (result.names.empty()) result.value = option.get_name(true);
   if (option.get_items_expected_max() == 0) return result;

@@ -17,7 +17,7 @@ struct CommandOption {
   std::string value;                 ///< "DIR"; what the word is called; empty for a flag
   std::string limits;                ///< "INT in [1 - 1024]"; empty: none
   std::vector<std::string> choices;  ///< the only values
-  std::string standard;              ///< its default; empty: none, or the text says it
+  std::string default_value;         ///< empty: none, or the text says it
   std::string text;
   bool required = false, repeated = false;
   ValueKind kind = ValueKind::none;
@@ -38,7 +38,7 @@ void add_generate(CLI::App& app);
 
 /// The manual page, section 1 (roff, with the macros of man(7)).
 std::string manual_page(const CLI::App& app);
-/// The script that teaches bash to complete the program's words.
+/// What share/packages/completion.bash completes: the function _atrium_table of bash.
 std::string bash_completion(const CLI::App& app);
 
 }  // namespace atrium::cli

@@ -130,15 +130,11 @@ void add_graph(CLI::App& app, int& exit_code) {
   };
   auto* verb = app.add_subcommand("graph", "Draws a pipeline: DOT for Graphviz, or Mermaid for Markdown.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("FILE", options->file,
-                   "the pipeline file, the name of an installed one, or a picture that a run has made (PNG)")
-      ->required()
-      ->type_name("");
+  add_pipeline(*verb, options->file, options->settings);
   verb->add_option("--format", options->format, "dot or mermaid")
       ->type_name("FORMAT")
       ->check(CLI::IsMember({"dot", "mermaid"}));
   verb->add_flag("--reduced", options->reduced, "leave out edges that longer ways imply (transitive reduction)");
-  add_settings(*verb, options->settings);
   verb->callback([options, &exit_code] {
     Registry registry;
     const LoadResult result = load_pipeline(options->file, to_overrides(options->settings), registry,

@@ -16,6 +16,7 @@
 #include "graph/cli/command_table.hpp"
 #include "graph/cli/verbs.hpp"
 #include "graph/pipeline/registry.hpp"
+#include "graph/run/runner.hpp"
 
 namespace atrium::cli {
 namespace {
@@ -157,6 +158,8 @@ int main(int argc, char** argv) {
     return report_usage(app, error, {argv + 1, argv + argc});
   } catch (const atrium::PluginError& error) {
     return report(error.what(), error.help(), cli::plugin);
+  } catch (const atrium::FolderError& error) {
+    return report(error.what(), error.help(), cli::usage);
   } catch (const atrium::Error& error) {
     return report(error.what(), error.help(), cli::failed);
   } catch (const std::filesystem::filesystem_error& error) {

@@ -70,7 +70,7 @@ std::string entry(const CommandOption& option) {
     add("One of: " + list + ".");
   }
   if (!option.limits.empty()) add(roff("Value: " + option.limits + "."));
-  if (!option.standard.empty()) add("Default: " + bold(option.standard) + ".");
+  if (!option.default_value.empty()) add("Default: " + bold(option.default_value) + ".");
   if (option.required && !option.names.empty()) add("Required.");
   return fmt::format(".TP\n{}\n{}\n", head, text.empty() ? "\\&" : text);
 }

@@ -5,6 +5,7 @@
 
 #include "graph/api/json_text.hpp"
 #include "graph/api/suggest.hpp"
+#include "graph/api/text.hpp"
 #include "graph/cli/verbs.hpp"
 #include "graph/pipeline/registry.hpp"
 
@@ -83,10 +84,7 @@ void print_json(const Types& types) {
   fmt::print("{}\n", json_text(list, 2));
 }
 
-std::string cell(std::string text) {
-  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
-  return text;
-}
+std::string cell(const std::string& text) { return replaced(text, "|", "\\|"); }
 
 void print_markdown_ports(std::string_view title, const std::vector<PortInfo>& ports) {
   if (ports.empty()) return;
@@ -129,9 +127,10 @@ void print_manual(const NodeType& node) {
 }
 
 void print_list(const Types& types) {
-  std::size_t width = 0;
-  for (const auto* node : types) width = std::max(width, node->type.size());
-  for (const auto* node : types) fmt::print("{:{}}  {}\n", node->type, width, node->summary);
+  std::vector<std::vector<std::string>> rows;
+  rows.reserve(types.size());
+  for (const auto* node : types) rows.push_back({node->type, node->summary});
+  fmt::print("{}", aligned(rows));
 }
 
 /// The types that the word names: one type, a module's, or all.

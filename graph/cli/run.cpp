@@ -21,9 +21,7 @@ struct RunArguments {
   std::string file;
   std::vector<std::string> settings;
   std::string out;
-  int threads = 0;
-  bool quiet = false, json = false, no_hashes = false;
-  CacheChoice cache;
+  RunChoice run;
 };
 
 // runs/paper-20240131-093000, or the first of …-2, …-3 that is not there.
@@ -50,32 +48,26 @@ void print_run_summary(const RunResult& result, const fs::path& folder) {
 }
 
 int run_file(const RunArguments& options) {
-  limit_openmp(options.threads);
+  limit_openmp(options.run.threads);
   Registry registry;
   const LoadResult loaded = load_pipeline(options.file, to_overrides(options.settings), registry);
   print_findings(loaded);
   if (!loaded.errors.empty()) return invalid;
   const CancelOnSignal signals;
-  RunOptions run_options;
-  run_options.out = options.out.empty() ? new_folder(options.file) : fs::path(options.out);
-  run_options.threads = options.threads;
-  run_options.hashes = !options.no_hashes;
-  run_options.cancel = signals.flag();
-  const auto cache = open_cache(options.cache);
-  run_options.cache = cache.get();
-  RunResult result;
-  try {
-    ConsoleProgress progress(console_options(stderr, options.quiet));
-    result = run_pipeline(loaded.pipeline, run_options, progress);
-  } catch (const FolderError& error) {
-    print_error(error.what(), error.help());
-    return usage;
+  const fs::path out = options.out.empty() ? new_folder(options.file) : fs::path(options.out);
+  const auto cache = open_cache(options.run);
+  auto run = run_options<RunOptions>(options.run, cache.get(), out);
+  run.cancel = signals.flag();
+  const RunResult result = [&] {
+    ConsoleProgress progress(console_options(stderr, options.run.quiet));
+    return run_pipeline(loaded.pipeline, run, progress);
+  }();
+  if (!options.run.quiet) {
+    for (const auto& problem : result.cache_problems) say("warning: {}\n", problem);
+    print_run_summary(result, out);
   }
-  for (const auto& problem : result.cache_problems)
-    if (!options.quiet) say("warning: {}\n", problem);
-  if (!options.quiet) print_run_summary(result, run_options.out);
-  if (options.json)
-    fmt::print("{}", results_json(loaded.pipeline, result, fs::absolute(run_options.out)));
+  if (options.run.json)
+    fmt::print("{}", results_json(loaded.pipeline, result, fs::absolute(out)));
   else if (has_stdout())
     fmt::print("{}", results_table(loaded.pipeline, result));
   if (!result.failures.empty()) return failed;
@@ -88,18 +80,9 @@ void add_run(CLI::App& app, int& exit_code) {
   auto* verb =
       app.add_subcommand("run", "Runs a pipeline: results on stdout, files and a record of the run in a folder.");
   const auto options = std::make_shared<RunArguments>();
-  verb->add_option("FILE", options->file,
-                   "the pipeline file, the name of an installed one, or a picture that a run has made (PNG)")
-      ->required()
-      ->type_name("");
-  add_settings(*verb, options->settings);
+  add_pipeline(*verb, options->file, options->settings);
   verb->add_option("--out", options->out, "the run's folder (default: runs/NAME-TIME)")->type_name("DIR");
-  verb->add_option("-j,--threads", options->threads, "threads; 1: one node after the other (default: one per core)")
-      ->check(CLI::Range(1, 1024));
-  verb->add_flag("-q,--quiet", options->quiet, "no progress and no warnings on stderr, errors only");
-  verb->add_flag("--json", options->json, "results as JSON on stdout");
-  verb->add_flag("--no-hashes", options->no_hashes, "leave the content hashes of outputs out of manifest.json");
-  add_cache_options(*verb, options->cache);
+  add_run_options(*verb, options->run);
   verb->callback([options, &exit_code] { exit_code = run_file(*options); });
 }
 

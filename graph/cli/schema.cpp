@@ -3,8 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "graph/api/files.hpp"
 #include "graph/api/json_text.hpp"
-#include "graph/cli/sweep_schema.hpp"
+#include "graph/api/plugin_data.hpp"
 #include "graph/cli/verbs.hpp"
 #include "graph/pipeline/registry.hpp"
 
@@ -18,23 +19,15 @@ constexpr const char* node_pattern = "^[a-z][a-z0-9_]*(/[a-z][a-z0-9_]*)*$";
 constexpr const char* port_pattern = "^[a-z][a-z0-9_]*(/[a-z][a-z0-9_]*)*\\.[a-z][a-z0-9_]*$";
 constexpr const char* number_pattern = "[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?";
 
-std::string unit_pattern(const Unit& unit) {
-  if (unit.dimension == "length") return "(km|m|cm|mm|um|in|ft)";
-  if (unit.dimension == "area") return "(m2|cm2|mm2)";
-  if (unit.dimension == "angle") return "(deg|rad)";
-  if (unit.dimension == "time") return "(s|ms|min|h)";
-  if (unit.dimension == "ratio") return "%";
-  return {};
-}
-
 /// A bare number in the declared unit, within its bounds, or a number with a unit (whose bounds the program checks).
 Json number_schema(const ParamInfo& param) {
   Json number{{"type", param.kind == ParamKind::integer ? "integer" : "number"}};
   if (std::isfinite(param.min)) number["minimum"] = param.min;
   if (std::isfinite(param.max)) number["maximum"] = param.max;
-  const std::string units = unit_pattern(param.unit);
+  const auto units = units_of(param.unit);
   if (units.empty()) return number;
-  const Json quantity{{"type", "string"}, {"pattern", fmt::format("^{} *{}$", number_pattern, units)}};
+  const std::string pattern = units.size() == 1 ? units.front() : fmt::format("({})", fmt::join(units, "|"));
+  const Json quantity{{"type", "string"}, {"pattern", fmt::format("^{} *{}$", number_pattern, pattern)}};
   return {{"anyOf", Json::array({number, quantity})}};
 }
 
@@ -163,7 +156,7 @@ void add_schema(CLI::App& app, int& /*exit_code*/) {
   verb->add_flag("--sweep", *sweep, "of sweep files instead");
   verb->callback([sweep] {
     if (*sweep) {
-      fmt::print("{}\n", json_text(sweep_schema(), 2));
+      fmt::print("{}", read_text(data_folder(own_program(), "schema") / "sweep.schema.json"));
       return;
     }
     Registry registry;

@@ -24,13 +24,11 @@ namespace fs = std::filesystem;
 struct SweepArguments {
   std::string file;
   std::vector<std::string> settings;
-  std::string out;
-  int threads = 0;
+  std::string out, memory;
+  RunChoice run;
   std::int64_t max_failures = 0;
-  bool fail_fast = false, quiet = false, json = false, no_hashes = false, isolate = false;
+  bool fail_fast = false, isolate = false;
   double timeout = 0;
-  CacheChoice cache;
-  std::string memory;
 };
 
 fs::path folder_of(const SweepArguments& options) {
@@ -44,18 +42,18 @@ void print_notes(const SweepPlan& plan) {
 
 /// "4 of 12 (2.3 s)": the nodes that are to be run.
 std::string shown(const SweepForecast::Variant& variant) {
-  if (variant.to_run == 0) return fmt::format("0 of {}", variant.known);
+  if (variant.to_run == 0) return fmt::format("0 of {}", variant.cached);
   const std::string time = variant.unknown == variant.to_run
                                ? ""
                                : fmt::format(" ({}{:.3g} s)", variant.unknown > 0 ? "> " : "", variant.seconds);
-  return fmt::format("{} of {}{}", variant.to_run, variant.known + variant.to_run, time);
+  return fmt::format("{} of {}{}", variant.to_run, variant.cached + variant.to_run, time);
 }
 
 void print_forecast(const SweepForecast& forecast, const SweepPlan& plan, std::size_t done) {
   std::string text = fmt::format("{}, {} done; {} in all, ", counted(plan.variants.size(), "variant"), done,
                                  counted(plan.nodes, "node"));
-  text += fmt::format("{} once shared: {} known to the cache, {} to run", node_count(plan.merged), forecast.known,
-                      forecast.to_run);
+  text +=
+      fmt::format("{} once shared: {} cached, {} to run", node_count(plan.merged), forecast.cached, forecast.to_run);
   if (forecast.to_run > forecast.unknown) {
     text += fmt::format(", about {} one after the other", clock_text(forecast.seconds));
     text += fmt::format(", the largest with {}", size_text(forecast.memory));
@@ -72,7 +70,7 @@ void print_plan_json(const SweepForecast& forecast, const SweepPlan& plan, const
     variants.push_back({{"id", plan.variants[v].id},
                         {"variant", label_of(sweep, plan.variants[v])},
                         {"done", static_cast<bool>(done[v])},
-                        {"nodes_known", cost.known},
+                        {"nodes_known", cost.cached},
                         {"nodes_to_run", cost.to_run},
                         {"nodes_of_unknown_cost", cost.unknown},
                         {"seconds", cost.seconds}});
@@ -80,7 +78,7 @@ void print_plan_json(const SweepForecast& forecast, const SweepPlan& plan, const
   const nlohmann::ordered_json json{{"variants", std::move(variants)},
                                     {"nodes", plan.nodes},
                                     {"merged_nodes", node_count(plan.merged)},
-                                    {"nodes_known", forecast.known},
+                                    {"nodes_known", forecast.cached},
                                     {"nodes_to_run", forecast.to_run},
                                     {"nodes_of_unknown_cost", forecast.unknown},
                                     {"seconds", forecast.seconds},
@@ -102,10 +100,10 @@ int plan(const SweepArguments& options) {
     for (std::size_t v = 0; v < done.size(); ++v)
       done[v] = reusable_result(variants / plan.variants[v].id, plan, plan.variants[v], build).has_value();
   }
-  const auto cache = open_cache(options.cache);
+  const auto cache = open_cache(options.run);
   const SweepForecast cost = forecast(plan, done, cache.get());
   print_notes(plan);
-  if (options.json) {
+  if (options.run.json) {
     print_plan_json(cost, plan, *loaded.sweep, done);
     return ok;
   }
@@ -120,46 +118,37 @@ int plan(const SweepArguments& options) {
 }
 
 int run_variants(const SweepArguments& options) {
-  limit_openmp(options.threads);
+  limit_openmp(options.run.threads);
   Registry registry;
   const LoadedSweep loaded = load_sweep(options.file, to_overrides(options.settings), registry);
   if (!loaded.sweep) return invalid;
   const CancelOnSignal signals;
-  SweepOptions sweep_options;
-  sweep_options.out = folder_of(options);
-  sweep_options.threads = options.threads;
-  sweep_options.hashes = !options.no_hashes;
+  const auto cache = open_cache(options.run);
+  auto sweep_options = run_options<SweepOptions>(options.run, cache.get(), folder_of(options));
   sweep_options.cancel = signals.flag();
-  const auto cache = open_cache(options.cache);
-  sweep_options.cache = cache.get();
   if (!options.memory.empty()) sweep_options.memory = read_size(options.memory);
   if (options.max_failures > 0) sweep_options.max_failures = static_cast<std::size_t>(options.max_failures);
   if (options.fail_fast) sweep_options.max_failures = 1;
   if (options.isolate)
-    sweep_options.isolation = {own_program(), worker_arguments(options.cache, cache.get(), options.no_hashes),
-                               options.timeout};
-  SweepResult result;
-  if (!options.quiet) print_notes(loaded.load.plan);
-  try {
-    ConsoleProgress progress(console_options(stderr, options.quiet));
-    result = run_sweep(*loaded.sweep, loaded.load.plan, build_of_all(registry), sweep_options, progress);
-  } catch (const FolderError& error) {
-    return refuse(error);
-  }
+    sweep_options.isolation = {own_program(), worker_arguments(options.run, cache.get()), options.timeout};
+  const bool quiet = options.run.quiet;
+  if (!quiet) print_notes(loaded.load.plan);
+  const SweepResult result = [&] {
+    ConsoleProgress progress(console_options(stderr, quiet));
+    return run_sweep(*loaded.sweep, loaded.load.plan, build_of_all(registry), sweep_options, progress);
+  }();
   if (signals.flag()->load()) {
-    if (!options.quiet) print_summary(result, sweep_options.out);
-    print_sweep(*loaded.sweep, loaded.load.plan, result, options.json);
+    if (!quiet) print_summary(result, sweep_options.out);
+    print_sweep(*loaded.sweep, loaded.load.plan, result, options.run.json);
     return signals.exit_code();
   }
-  return finish_sweep(loaded, result, registry, sweep_options, options.json, options.quiet);
+  return finish_sweep(loaded, result, registry, sweep_options, options.run.json, quiet);
 }
 
 void add_common(CLI::App& verb, SweepArguments& options) {
-  verb.add_option("FILE", options.file, "the sweep file, or the name of an installed one")->required()->type_name("");
-  add_settings(verb, options.settings);
+  add_sweep_file(verb, options.file, options.settings);
   verb.add_option("--out", options.out, "the sweep's folder (default: runs/NAME); what is done in it is not done again")
       ->type_name("DIR");
-  verb.add_flag("--json", options.json, "results as JSON on stdout");
 }
 
 }  // namespace
@@ -170,26 +159,22 @@ void add_sweep(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<SweepArguments>();
   auto* planned = verb->add_subcommand("plan", "Checks all variants and lists them, with what is done already.");
   add_common(*planned, *options);
-  add_cache_options(*planned, options->cache);
+  planned->add_flag("--json", options->run.json, "results as JSON on stdout");
+  add_cache_options(*planned, options->run.cache);
   planned->callback([options, &exit_code] { exit_code = plan(*options); });
   auto* ran = verb->add_subcommand("run", "Runs the variants that are not done; prints their table.");
   add_common(*ran, *options);
-  ran->add_option("-j,--threads", options->threads, "threads; 1: one node after the other (default: one per core)")
-      ->check(CLI::Range(1, 1024));
+  add_run_options(*ran, options->run);
   ran->add_option("--max-fail", options->max_failures, "stop after so many failed variants")
       ->check(CLI::Range(1, 1'000'000));
   ran->add_flag("--fail-fast", options->fail_fast, "stop after the first failure");
-  ran->add_flag("-q,--quiet", options->quiet, "no progress and no warnings on stderr, errors only");
-  ran->add_flag("--no-hashes", options->no_hashes, "leave the content hashes of outputs out of manifest.json");
-  add_cache_options(*ran, options->cache);
   ran->add_flag(
       "--isolate", options->isolate,
       "run each variant in a process of its own: a crash costs that variant only; what a process prints goes to "
       "variants/ID/worker.log");
   add_size(*ran, "--mem", options->memory, "with --isolate: memory that all processes together may hold, e.g. '8 GB'")
       ->needs("--isolate");
-  ran->add_option("--timeout", options->timeout, "with --isolate: seconds after which a variant is ended; 0: none")
-      ->check(CLI::Range(0.0, 1e9))
+  add_timeout(*ran, options->timeout, "with --isolate: seconds after which a variant is ended; 0: none")
       ->needs("--isolate");
   ran->callback([options, &exit_code] { exit_code = run_variants(*options); });
   add_sweep_submit(*verb, exit_code);

@@ -67,7 +67,7 @@ void print_summary(const SweepResult& result, const fs::path& folder) {
   if (reused > 0) text += fmt::format(" ({} before)", reused);
   for (const auto& [status, number] : count)
     if (status != VariantStatus::ok) text += fmt::format(", {} {}", number, name_of(status));
-  if (result.known > 0) text += fmt::format("; {} of {} by the cache", result.known, counted(result.nodes, "node"));
+  if (result.cached > 0) text += fmt::format("; {} of {} by the cache", result.cached, counted(result.nodes, "node"));
   say("{} in {:.2f} s; see {}\n", text, result.wall, folder.string());
 }
 
@@ -80,12 +80,6 @@ int finish_sweep(const LoadedSweep& loaded, const SweepResult& result, Registry&
   if (!quiet) print_summary(result, options.out);
   const int code = print_sweep(*loaded.sweep, loaded.load.plan, result, json);
   return code == ok && !problems.empty() ? failed : code;
-}
-
-int refuse(const FolderError& error) {
-  say("atrium: error: {}\n", error.what());
-  if (!error.help().empty()) say("  help: {}\n", error.help());
-  return usage;
 }
 
 }  // namespace atrium::cli

@@ -19,7 +19,4 @@ void print_summary(const SweepResult& result, const std::filesystem::path& folde
 /// Draws the sheets, prints all of it, returns the exit code.
 int finish_sweep(const LoadedSweep& loaded, const SweepResult& result, Registry& registry, const SweepOptions& options,
                  bool json, bool quiet);
-/// Says why a folder cannot be used; returns the exit code.
-int refuse(const FolderError& error);
-
 }  // namespace atrium::cli

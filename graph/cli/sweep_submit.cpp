@@ -17,13 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SubmitArguments {
-  std::string file, out, engine, memory;
-  std::vector<std::string> settings, engine_options;
-  std::size_t shards = 0;
-  int threads = 0;
-  double timeout = 0;
-  bool dry = false, no_hashes = false, json = false, quiet = false;
-  CacheChoice cache;
+  std::string file, out, memory;
+  RunChoice run;
+  SubmitOptions submit;
+  Submission submission;
 };
 
 void check_engine(const std::string& engine) {
@@ -49,11 +46,11 @@ int run_scripts(const SubmitArguments& options, const SweepPlan& plan, const Sub
   const int status = run_program({"/bin/sh", scripts.submit_file.string()});
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   // GNU parallel returns how many jobs failed: it is for `gather` to say what became of the variants.
-  if (code != 0 && (options.engine == "slurm" || code > 101)) {
+  if (code != 0 && (options.submission.engine == "slurm" || code > 101)) {
     say("atrium: error: {} ended with exit code {}\n", scripts.submit_file.string(), code);
     return failed;
   }
-  if (options.engine == "slurm") {
+  if (options.submission.engine == "slurm") {
     say("{} submitted; their table: atrium sweep gather {}\n", counted(scripts.variants, "variant"), options.out);
     return ok;
   }
@@ -66,44 +63,32 @@ int run_scripts(const SubmitArguments& options, const SweepPlan& plan, const Sub
 
 int submit(const SubmitArguments& options) {
   Registry registry;
-  const LoadedSweep loaded = load_sweep(options.file, to_overrides(options.settings), registry);
+  Submission submission = options.submission;
+  SubmitOptions submit = options.submit;
+  const LoadedSweep loaded = load_sweep(options.file, to_overrides(submission.settings), registry);
   if (!loaded.sweep) return invalid;
-  if (!options.dry) check_engine(options.engine);
-  const auto cache = open_cache(options.cache);
-  SubmitOptions submit_options;
-  submit_options.out = fs::absolute(options.out).lexically_normal();
-  submit_options.program = own_program();
-  submit_options.threads = options.threads;
-  submit_options.shards = options.shards;
-  submit_options.engine_options = options.engine_options;
-  submit_options.dry = options.dry;
-  submit_options.cache = cache.get();
-  Submission submission;
+  if (!submit.dry) check_engine(submission.engine);
+  const auto cache = open_cache(options.run);
+  submit.out = fs::absolute(options.out).lexically_normal();
+  submit.program = own_program();
+  submit.cache = cache.get();
   submission.sweep = loaded.sweep->path;
-  submission.settings = options.settings;
   submission.folder = fs::current_path();
   submission.build = build_of_all(registry);
-  submission.engine = options.engine;
-  submission.arguments = worker_arguments(options.cache, cache.get(), options.no_hashes);
-  submission.cache = cache == nullptr ? "" : cache->places().folder.string();
+  submission.arguments = worker_arguments(options.run, cache.get());
+  if (cache) submission.cache = cache->places().folder.string();
   if (!options.memory.empty()) submission.memory = read_size(options.memory);
-  submission.timeout = options.timeout;
-  SubmitScripts scripts;
-  try {
-    scripts = prepare_submission(*loaded.sweep, loaded.load.plan, submission, submit_options);
-  } catch (const FolderError& error) {
-    return refuse(error);
-  }
+  const SubmitScripts scripts = prepare_submission(*loaded.sweep, loaded.load.plan, submission, submit);
   if (scripts.variants == 0) {
     say("all variants are done already: `atrium sweep run` prints their table\n");
     return ok;
   }
-  if (options.dry) {
-    if (!scripts.job.empty()) fmt::print("# {}\n{}\n", scripts.job_file.string(), scripts.job);
+  if (submit.dry) {
+    fmt::print("# {}\n{}\n", scripts.job_file.string(), scripts.job);
     fmt::print("# {}\n{}", scripts.submit_file.string(), scripts.submit);
     return ok;
   }
-  return run_scripts(options, loaded.load.plan, submission, scripts, submit_options.out);
+  return run_scripts(options, loaded.load.plan, submission, scripts, submit.out);
 }
 
 int gather(const SubmitArguments& options) {
@@ -117,7 +102,7 @@ int gather(const SubmitArguments& options) {
   const SweepResult result = atrium::gather(out, submission, *loaded.sweep, loaded.load.plan);
   SweepOptions sweep_options;
   sweep_options.out = out;
-  return finish_sweep(loaded, result, registry, sweep_options, options.json, options.quiet);
+  return finish_sweep(loaded, result, registry, sweep_options, options.run.json, options.run.quiet);
 }
 
 }  // namespace
@@ -127,28 +112,24 @@ void add_sweep_submit(CLI::App& sweep, int& exit_code) {
                                     "Hands the variants that are not done to Slurm or GNU parallel, what several share "
                                     "first; see share/doc/farm.md.");
   const auto options = std::make_shared<SubmitArguments>();
-  verb->add_option("FILE", options->file, "the sweep file, or the name of an installed one")->required();
-  verb->add_option("ENGINE_OPTIONS", options->engine_options,
+  add_sweep_file(*verb, options->file, options->submission.settings);
+  verb->add_option("ENGINE_OPTIONS", options->submit.engine_options,
                    "after --, passed on to sbatch or parallel: -- --partition=long --time=2:00:00");
-  add_settings(*verb, options->settings);
   verb->add_option("--out", options->out, "the sweep's folder, on a file system that all machines have")
       ->required()
       ->type_name("DIR");
-  verb->add_option("--engine", options->engine,
+  verb->add_option("--engine", options->submission.engine,
                    "slurm: two job arrays (sbatch); parallel: GNU parallel, here or with --sshlogin")
       ->required()
       ->check(CLI::IsMember({"slurm", "parallel"}));
-  verb->add_option("--shards", options->shards, "number of jobs (default: one per variant, at most 100)")
+  verb->add_option("--shards", options->submit.shards, "number of jobs (default: one per variant, at most 100)")
       ->check(CLI::Range(1, 100'000));
-  verb->add_flag("--dry-run", options->dry, "only print what would be called");
-  verb->add_option("-j,--threads", options->threads,
-                   "threads of each shard (default: what Slurm gives it; with parallel 1)")
-      ->check(CLI::Range(1, 1024));
-  verb->add_option("--mem", options->memory, "memory that a shard may hold: 8 GB; a variant that needs more is ended");
-  verb->add_option("--timeout", options->timeout, "seconds after which a variant is ended; 0: none")
-      ->check(CLI::Range(0.0, 1e9));
-  verb->add_flag("--no-hashes", options->no_hashes, "leave out the content hashes of outputs");
-  add_cache_options(*verb, options->cache);
+  verb->add_flag("--dry-run", options->submit.dry, "only print what would be called");
+  add_threads(*verb, options->submit.threads, "threads of each shard (default: what Slurm gives it; with parallel 1)");
+  add_size(*verb, "--mem", options->memory, "memory that a shard may hold: 8 GB; a variant that needs more is ended");
+  add_timeout(*verb, options->submission.timeout, "seconds after which a variant is ended; 0: none");
+  verb->add_flag("--no-hashes", options->run.no_hashes, "leave out the content hashes of outputs");
+  add_cache_options(*verb, options->run.cache);
   verb->callback([options, &exit_code] { exit_code = submit(*options); });
 }
 
@@ -157,8 +138,8 @@ void add_sweep_gather(CLI::App& sweep, int& exit_code) {
       "gather", "Joins what the shards of `submit` have left so far, as `run` would have left it; prints the table.");
   const auto options = std::make_shared<SubmitArguments>();
   verb->add_option("DIR", options->out, "the sweep's folder")->required();
-  verb->add_flag("-q,--quiet", options->quiet, "errors only on stderr");
-  verb->add_flag("--json", options->json, "results as JSON on stdout");
+  verb->add_flag("-q,--quiet", options->run.quiet, "errors only on stderr");
+  verb->add_flag("--json", options->run.json, "results as JSON on stdout");
   verb->callback([options, &exit_code] { exit_code = gather(*options); });
 }
 

@@ -21,9 +21,8 @@ struct WorkArguments {
   std::string folder;
   std::vector<std::string> tasks, skipped;
   std::string build;
-  int threads = 0;
-  bool here = false, no_hashes = false;
-  CacheChoice cache;
+  bool here = false;
+  RunChoice run;
 };
 
 /// A file in the work folder, or ids of variants.
@@ -38,16 +37,13 @@ WorkerTask task_of(const fs::path& folder, const std::vector<std::string>& names
 int work_here(const WorkArguments& options) {
   keep_occupied(WorkerProcess::events_file, O_WRONLY);       // before any file is opened
   ::fcntl(WorkerProcess::events_file, F_SETFD, FD_CLOEXEC);  // not for programs that nodes start
-  limit_openmp(options.threads);
+  limit_openmp(options.run.threads);
   const CancelOnSignal signals;
   Registry registry;
   const fs::path folder = fs::absolute(options.folder).lexically_normal();
-  WorkerOptions worker{
-      folder, options.build, options.skipped, folder / farm_folder / "scratch" / options.tasks.front(), {}};
-  const auto cache = open_cache(options.cache);
-  worker.run.cache = cache.get();
-  worker.run.threads = options.threads;
-  worker.run.hashes = !options.no_hashes;
+  const auto cache = open_cache(options.run);
+  WorkerOptions worker{folder, options.build, options.skipped, folder / farm_folder / "scratch" / options.tasks.front(),
+                       run_options<RunOptions>(options.run, cache.get(), {})};
   worker.run.cancel = signals.flag();
   EventSink events(WorkerProcess::events_file);
   run_worker(task_of(folder, options.tasks), worker, registry, events);
@@ -59,31 +55,12 @@ int work(const WorkArguments& options) {
   const CancelOnSignal signals;
   Registry registry;
   ConsoleProgress progress(console_options(stderr, false));
-  run_shard(fs::absolute(options.folder).lexically_normal(), options.tasks.front(), own_program(), options.threads,
+  run_shard(fs::absolute(options.folder).lexically_normal(), options.tasks.front(), own_program(), options.run.threads,
             build_of_all(registry), signals.flag(), registry, progress);
   return signals.flag()->load() ? signals.exit_code() : ok;
 }
 
 }  // namespace
-
-std::vector<std::string> worker_arguments(const CacheChoice& choice, const Cache* cache, bool no_hashes) {
-  std::vector<std::string> arguments;
-  if (cache != nullptr) arguments = {"--cache", cache->places().folder.string(), "--cache-size", choice.size};
-  if (no_hashes) arguments.emplace_back("--no-hashes");
-  return arguments;
-}
-
-void limit_openmp(int threads) {
-  ::setenv("OMP_NUM_THREADS", std::to_string(std::max(threads, 1)).c_str(),
-           threads > 0 ? 1 : 0);  // NOLINT(concurrency-mt-unsafe)
-}
-
-std::string own_program() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) throw Error("cannot find this program: " + error.message());
-  return program.string();
-}
 
 void add_sweep_work(CLI::App& sweep, int& exit_code) {
   auto* verb = sweep.add_subcommand("work", "What the processes of a sweep run; started by the other verbs.");
@@ -94,9 +71,9 @@ void add_sweep_work(CLI::App& sweep, int& exit_code) {
   verb->add_option("--skip", options->skipped, "ID/NODE: not this node, nor what depends on it")
       ->allow_extra_args(false);
   verb->add_option("--build", options->build, "what the sweep was begun with");
-  verb->add_option("-j,--threads", options->threads, "threads")->check(CLI::Range(1, 1024));
-  verb->add_flag("--no-hashes", options->no_hashes, "no content hashes of outputs");
-  add_cache_options(*verb, options->cache);
+  add_threads(*verb, options->run.threads, "threads");
+  verb->add_flag("--no-hashes", options->run.no_hashes, "no content hashes of outputs");
+  add_cache_options(*verb, options->run.cache);
   verb->callback([options, &exit_code] { exit_code = options->here ? work_here(*options) : work(*options); });
 }
 

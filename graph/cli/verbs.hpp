@@ -31,8 +31,9 @@ void add_schema(CLI::App& app, int& exit_code);
 void add_cache(CLI::App& app, int& exit_code);
 void add_why(CLI::App& app, int& exit_code);
 
-/// The option -s of verbs that read a pipeline.
-void add_settings(CLI::App& verb, std::vector<std::string>& settings);
+/// The pipeline's or sweep's file, and the option -s.
+void add_pipeline(CLI::App& verb, std::string& file, std::vector<std::string>& settings);
+void add_sweep_file(CLI::App& verb, std::string& file, std::vector<std::string>& settings);
 std::vector<Override> to_overrides(const std::vector<std::string>& texts);
 /// The options --cache, --no-cache and --cache-size.
 struct CacheChoice {
@@ -42,12 +43,31 @@ struct CacheChoice {
 void add_cache_options(CLI::App& verb, CacheChoice& choice);
 /// An option that takes a size ("20 GB"); what is none ends the program as any wrong use does.
 CLI::Option* add_size(CLI::App& verb, const std::string& name, std::string& size, const std::string& text);
+/// What `run` and `sweep run` take alike.
+struct RunChoice {
+  int threads = 0;
+  bool quiet = false, json = false, no_hashes = false;
+  CacheChoice cache;
+};
+void add_run_options(CLI::App& verb, RunChoice& choice);
+CLI::Option* add_threads(CLI::App& verb, int& threads, const std::string& text);
+CLI::Option* add_timeout(CLI::App& verb, double& timeout, const std::string& text);
 /// Null if there is to be none, or if it cannot be used: that is said on stderr. A folder that --cache names and that
 /// holds something else is an error of use (CLI::ParseError).
-std::unique_ptr<Cache> open_cache(const CacheChoice& choice);
+std::unique_ptr<Cache> open_cache(const RunChoice& choice);
+/// As they were chosen. The cache must outlive them.
+template <class Options>
+Options run_options(const RunChoice& choice, Cache* cache, const std::filesystem::path& out) {
+  Options options;
+  options.out = out;
+  options.threads = choice.threads;
+  options.hashes = !choice.no_hashes;
+  options.cache = cache;
+  return options;
+}
 
 /// What the processes of a sweep are told of its cache (null: none) and of hashes.
-std::vector<std::string> worker_arguments(const CacheChoice& choice, const Cache* cache, bool no_hashes);
+std::vector<std::string> worker_arguments(const RunChoice& choice, const Cache* cache);
 /// Libraries that bring OpenMP use as many threads as the run (without -j: one, or what OMP_NUM_THREADS says); they
 /// read this when their plugin is loaded.
 void limit_openmp(int threads);

@@ -53,12 +53,14 @@ built outside of Atrium's own tree: find_package(atrium).")
 
 # The manual page and the completion are printed by the program from the tables of its command line.
 set(made ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_DATADIR}/atrium-made)
+set(completion ${PROJECT_SOURCE_DIR}/share/packages/completion.bash)
 file(MAKE_DIRECTORY ${made})
 add_custom_command(OUTPUT ${made}/atrium.1 ${made}/atrium.1.gz ${made}/atrium
                    COMMAND atrium generate man > ${made}/atrium.1
                    COMMAND gzip -9nc ${made}/atrium.1 > ${made}/atrium.1.gz
-                   COMMAND atrium generate bash-completion > ${made}/atrium
-                   DEPENDS atrium COMMENT "Printing the manual page and the completion" VERBATIM)
+                   COMMAND atrium generate bash-completion > ${made}/atrium.table
+                   COMMAND cat ${completion} ${made}/atrium.table > ${made}/atrium
+                   DEPENDS atrium ${completion} COMMENT "Printing the manual page and the completion" VERBATIM)
 add_custom_target(manual ALL DEPENDS ${made}/atrium.1.gz ${made}/atrium)
 install(FILES ${made}/atrium.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${made}/atrium DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)

@@ -1,5 +1,4 @@
 // What the shards of a sweep that was submitted have left, joined.
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <ctime>
@@ -10,6 +9,7 @@
 
 #include "graph/api/files.hpp"
 #include "graph/api/json_text.hpp"
+#include "graph/api/text.hpp"
 #include "graph/farm/submission.hpp"
 #include "graph/run/run_folder.hpp"
 #include "graph/sweep/isolated_run.hpp"
@@ -175,8 +175,7 @@ SweepResult gather(const fs::path& out, const Submission& submission, const Swee
   for (const auto& node : run.nodes) run.wall = std::max(run.wall, node.start + node.wall);
   run.cache_folder = submission.cache;
   run.threads = static_cast<int>(submission.shards);
-  write_run(out, joined.pipeline(), run,
-            fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(submission.time))), result);
+  write_run(out, joined.pipeline(), run, utc_text(static_cast<std::time_t>(submission.time)), result);
   write_tables(out, sweep, plan, result.variants);
   return result;
 }

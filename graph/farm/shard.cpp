@@ -11,6 +11,7 @@
 
 #include "graph/api/files.hpp"
 #include "graph/api/json_text.hpp"
+#include "graph/api/text.hpp"
 #include "graph/farm/submission.hpp"
 #include "graph/sweep/isolated_run.hpp"
 #include "graph/sweep/merge.hpp"
@@ -89,8 +90,12 @@ void run_shard(const fs::path& out, const std::string& name, const std::string& 
   std::unique_ptr<Cache> cache;
   if (!submission.cache.empty()) cache = std::make_unique<Cache>(CacheOptions{submission.cache});
   JoinedRun joined(plan, wanted, epoch_seconds(), progress);
-  IsolateOptions options{out,     program,           submission.arguments, submission.build,
-                         threads, submission.memory, submission.timeout};
+  IsolateOptions options;
+  options.out = out;
+  options.build = submission.build;
+  options.threads = threads;
+  options.memory = submission.memory;
+  options.isolation = {program, submission.arguments, submission.timeout};
   options.cancel = cancel;
   options.cache = cache.get();
   options.name = [&](const SweepVariant& variant) { return names.at(variant.id); };

@@ -11,7 +11,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_fields.hpp"
 #include "graph/api/json_text.hpp"
+#include "graph/api/text.hpp"
 #include "graph/run/run_folder.hpp"
 #include "graph/sweep/isolated_run.hpp"
 #include "graph/sweep/merge.hpp"
@@ -26,21 +28,26 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 constexpr std::size_t usual_shards = 100;
 constexpr std::string_view record_name = "submission.json";
+constexpr std::tuple fields{json_field("id", &Submission::id),
+                            json_field("sweep", &Submission::sweep),
+                            json_field("settings", &Submission::settings),
+                            json_field("folder", &Submission::folder),
+                            json_field("build", &Submission::build),
+                            json_field("engine", &Submission::engine),
+                            json_field("variants", &Submission::variants),
+                            json_field("arguments", &Submission::arguments),
+                            json_field("cache", &Submission::cache),
+                            json_field("memory", &Submission::memory),
+                            json_field("timeout", &Submission::timeout),
+                            json_field("time", &Submission::time),
+                            json_field("shared", &Submission::shared),
+                            json_field("shards", &Submission::shards)};
 
 /// Quoted for a shell, where it needs that.
 std::string for_shell(const std::string& text) {
   constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
   if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
-  return result + "'";
-}
-
-/// Slurm replaces what follows a '%' in the name of an output file.
-std::string without_marks(const std::string& path) {
-  std::string result;
-  for (const char c : path) result += c == '%' ? "%%" : std::string(1, c);
-  return result;
+  return "'" + replaced(text, "'", "'\\''") + "'";
 }
 
 std::string for_shell(const std::vector<std::string>& words) {
@@ -97,9 +104,10 @@ SubmitScripts slurm(const Call& call) {
                   work_command(call, submission.id + "/\"$1-$SLURM_ARRAY_TASK_ID\"", "\"${SLURM_CPUS_PER_TASK:-1}\""));
   const std::string threads = options.threads > 0 ? fmt::format(" --cpus-per-task={}", options.threads) : "";
   const auto array = [&](std::string_view kind, std::size_t tasks) {
+    // In the name of an output file Slurm replaces what follows a "%".
     return fmt::format("sbatch --parsable --job-name={} --array=1-{} --output={}{}",
                        for_shell(fmt::format("{}-{}", submission.sweep.stem().string(), kind)), tasks,
-                       for_shell(without_marks((work / kind).string()) + "-%a.log"), threads);
+                       for_shell(replaced((work / kind).string(), "%", "%%") + "-%a.log"), threads);
   };
   const std::string job = " " + for_shell(scripts.job_file.string()) + " ";
   const std::string more = for_shell(options.engine_options);
@@ -141,9 +149,8 @@ std::vector<WorkerTask> shared_tasks(const SweepPlan& plan, const std::vector<bo
   if (cache == nullptr) return {};
   std::vector<bool> done = wanted;
   done.flip();
-  std::vector<bool> known;
-  for (const auto node : forecast(plan, done, cache).nodes) known.push_back(node == SweepForecast::Node::known);
-  return packed(shared_beginnings(plan, wanted, known), std::max<std::size_t>(1, most));
+  return packed(shared_beginnings(plan, wanted, forecast(plan, done, cache).cached_nodes()),
+                std::max<std::size_t>(1, most));
 }
 
 void begin_variants(const SweepFile& sweep, const SweepPlan& plan, const std::vector<bool>& wanted,
@@ -164,32 +171,16 @@ void write_tasks(const fs::path& work, std::string_view kind, const std::vector<
 }  // namespace
 
 void write_submission(const fs::path& out, const Submission& s) {
-  const Json json{
-      {"id", s.id},         {"sweep", s.sweep.string()}, {"settings", s.settings}, {"folder", s.folder.string()},
-      {"build", s.build},   {"engine", s.engine},        {"variants", s.variants}, {"arguments", s.arguments},
-      {"cache", s.cache},   {"memory", s.memory},        {"timeout", s.timeout},   {"time", s.time},
-      {"shared", s.shared}, {"shards", s.shards}};
-  write_file(out / farm_folder / record_name, json_text(json, 1) + "\n");
+  write_file(out / farm_folder / record_name, json_text(fields_json(s, fields), 1) + "\n");
 }
 
 Submission read_submission(const fs::path& out) {
   const fs::path file = out / farm_folder / record_name;
   const Json json = read_json_file(file);
   try {
-    return {json.at("id").get<std::string>(),
-            json.at("sweep").get<std::string>(),
-            json.at("settings").get<std::vector<std::string>>(),
-            json.at("folder").get<std::string>(),
-            json.at("build").get<std::string>(),
-            json.at("engine").get<std::string>(),
-            json.at("variants").get<std::vector<std::string>>(),
-            json.at("arguments").get<std::vector<std::string>>(),
-            json.at("cache").get<std::string>(),
-            json.at("memory").get<std::uint64_t>(),
-            json.at("timeout").get<double>(),
-            json.at("time").get<double>(),
-            json.at("shared").get<std::size_t>(),
-            json.at("shards").get<std::size_t>()};
+    Submission submission;
+    read_fields(json, submission, fields);
+    return submission;
   } catch (const Json::exception&) {
     throw Error(out.string() + " is not the folder of a sweep that was submitted",
                 "`atrium sweep submit FILE --out DIR` makes one");
@@ -221,7 +212,7 @@ SubmitScripts prepare_submission(const SweepFile& sweep, const SweepPlan& plan, 
   write_tasks(call.work, "shared", shared);
   write_tasks(call.work, "shard", dealt(plan, wanted, submission.shards));
   write_submission(options.out, submission);
-  if (!scripts.job.empty()) write_file(scripts.job_file, scripts.job);
+  write_file(scripts.job_file, scripts.job);
   write_file(scripts.submit_file, scripts.submit);
   return scripts;
 }

@@ -38,7 +38,7 @@ struct SubmitOptions {
 /// What hands a sweep to its engine.
 struct SubmitScripts {
   std::filesystem::path job_file, submit_file;
-  std::string job, submit;   ///< shell scripts; job: empty if the engine needs none
+  std::string job, submit;   ///< shell scripts
   std::size_t variants = 0;  ///< that are to be run
 };
 

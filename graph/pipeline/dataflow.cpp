@@ -92,6 +92,11 @@ std::vector<std::size_t> topological_order(const Dataflow& graph) {
 }
 
 std::vector<std::vector<DataflowEdge>> cycles_of(const Dataflow& graph) {
+  try {  // most graphs have none, which this finds out sooner
+    topological_order(graph);
+    return {};
+  } catch (const Error&) {
+  }
   std::vector<int> component(node_count(graph));
   const int count = boost::strong_components(
       graph, boost::make_iterator_property_map(component.begin(), boost::get(boost::vertex_index, graph)));
@@ -119,11 +124,14 @@ std::vector<bool> with_readers(const std::vector<bool>& marked, const Dataflow& 
 Dataflow part_of(const Dataflow& graph, const std::vector<std::size_t>& nodes) {
   constexpr std::size_t none = ~std::size_t{0};
   std::vector<std::size_t> place(node_count(graph), none);
-  Dataflow part;
+  Dataflow part(nodes.size());
   part[whole].summary = graph[whole].summary;
   part[whole].seed = graph[whole].seed;
   part[whole].file = graph[whole].file;
-  for (const std::size_t n : nodes) place[n] = add_node(graph[n], part);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    place[nodes[i]] = i;
+    part[i] = graph[nodes[i]];
+  }
   for (const std::size_t n : nodes)
     for (const auto& edge : edges_into(n, graph))
       if (const std::size_t from = place[boost::source(edge, graph)]; from != none)

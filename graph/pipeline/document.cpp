@@ -6,7 +6,7 @@
 #include <charconv>
 #include <unordered_set>
 
-#include "graph/api/suggest.hpp"
+#include "graph/pipeline/file_reader.hpp"
 #include "graph/pipeline/png_stamp.hpp"
 
 namespace atrium {
@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::string_view name_help = "names are lower-case letters, digits and _, and begin with a letter";
 
-class DocumentReader {
+class DocumentReader : FileReader {
  public:
-  DocumentReader(Document& document, Findings& findings) : document_(document), findings_(findings) {}
+  DocumentReader(Document& document, Findings& findings) : FileReader(document.source, findings), document_(document) {}
 
   void read(const YamlNode& root) {
     if (const auto* sweep = root.find("sweep"); sweep != nullptr && root.find("nodes") == nullptr) {
@@ -25,7 +25,7 @@ class DocumentReader {
     }
     check_keys(root, {"atrium", "summary", "seed", "versions", "vars", "inputs", "nodes", "outputs"},
                "a pipeline file");
-    read_format(root);
+    check_format(root);
     if (const auto* entry = root.find("summary")) document_.summary = scalar(*entry).text;
     if (const auto* entry = root.find("seed")) read_seed(*entry);
     read_variables(root.find("vars"));
@@ -37,50 +37,15 @@ class DocumentReader {
   }
 
  private:
-  Where at(Place place) const { return {&document_.source, place}; }
-  void error(Place place, std::string message, std::string help = {}) {
-    findings_.error(at(place), std::move(message), std::move(help));
-  }
-
-  void check_keys(const YamlNode& mapping, const std::vector<std::string>& allowed, const std::string& what) {
-    for (const auto& entry : mapping.entries) {
-      if (std::find(allowed.begin(), allowed.end(), entry.key) != allowed.end()) continue;
-      const std::string hint = findings_.suggest(entry.key, allowed);
-      error(entry.place, fmt::format("unknown key '{}' in {}", entry.key, what),
-            hint.empty() ? fmt::format("keys of {}: {}", what, join_words(allowed)) : hint);
-    }
-  }
-
-  Located scalar(const YamlNode::Entry& entry) {
-    if (entry.value.is_scalar()) return {entry.value.text, entry.value.place};
-    error(entry.value.place, entry.value.is_null() ? fmt::format("'{}' has no value", entry.key)
-                                                   : fmt::format("'{}' must be a single value", entry.key));
-    return {};
-  }
-
-  /// The mapping under a key; null (`params:` with nothing) is an empty one.
+  /// Null (`params:` with nothing) is an empty one.
   const std::vector<YamlNode::Entry>& mapping(const YamlNode::Entry* entry) {
-    static const std::vector<YamlNode::Entry> nothing;
-    if (entry == nullptr || entry->value.is_null()) return nothing;
-    if (entry->value.is_mapping()) return entry->value.entries;
-    error(entry->value.place, fmt::format("'{}' must be a mapping", entry->key), "write `name: value` lines below it");
-    return nothing;
+    return FileReader::mapping(entry, "write `name: value` lines below it", true);
   }
 
   bool check_name(const YamlNode::Entry& entry, std::string_view what) {
     if (is_name(entry.key)) return true;
     error(entry.place, fmt::format("'{}' cannot be the name of {}", entry.key, what), std::string(name_help));
     return false;
-  }
-
-  void read_format(const YamlNode& root) {
-    const auto* entry = root.find("atrium");
-    if (entry == nullptr) {
-      error({}, "the format version is missing", "begin the file with `atrium: 1`");
-    } else if (!entry->value.is_scalar() || entry->value.text != "1") {
-      error(entry->value.place, fmt::format("unknown format version '{}'", entry->value.text),
-            "this program reads `atrium: 1`");
-    }
   }
 
   void read_seed(const YamlNode::Entry& entry) {
@@ -133,14 +98,15 @@ class DocumentReader {
   void read_input_with_default(const YamlNode::Entry& entry) {
     check_keys(entry.value, {"type", "default"}, fmt::format("the input '{}'", entry.key));
     const auto* type = entry.value.find("type");
-    const auto* standard = entry.value.find("default");
+    const auto* default_source = entry.value.find("default");
     if (type == nullptr) {
       error(entry.place, fmt::format("the input '{}' has no type", entry.key), "as in `type: Cloud`");
       return;
     }
     DocumentInput input{{entry.key, entry.place}, scalar(*type), std::nullopt};
-    if (standard != nullptr)
-      if (const Located text = scalar(*standard); text.place.line > 0) input.standard = reference(standard->value);
+    if (default_source != nullptr)
+      if (const Located text = scalar(*default_source); text.place.line > 0)
+        input.default_source = reference(default_source->value);
     document_.inputs.push_back(std::move(input));
   }
 
@@ -278,7 +244,6 @@ class DocumentReader {
   }
 
   Document& document_;
-  Findings& findings_;
 };
 
 /// Files that people hand over in the place of a pipeline: point clouds and meshes.

@@ -51,7 +51,7 @@ struct DocumentNode {
 /// a default it may be left unwired, and a file whose inputs all have one runs on its own.
 struct DocumentInput {
   Located name, type;
-  std::optional<Reference> standard;  ///< its default
+  std::optional<Reference> default_source;
 };
 
 struct DocumentOutput {

@@ -93,6 +93,8 @@ SettledValue settle(const Setting& setting, const Scope& scope, const SourceFile
 void Expander::expand(const Document& root) {
   by_identity_.emplace(root.identity, &root);
   expansion_.scopes.emplace_back().document = &root;
+  expansion_.graph.m_vertices.reserve(root.nodes.size());
+  expansion_.origins.reserve(root.nodes.size());
   fill(expansion_.scopes.front());
   report_unknown_nodes();
 }
@@ -102,7 +104,7 @@ std::unordered_set<std::string> Expander::dormant_nodes(const Scope& scope) {
   const Document& document = *scope.document;
   std::unordered_set<std::string> dormant;
   for (const auto& input : document.inputs)
-    if (input.standard && is_wired(scope, input.name.text)) dormant.insert(input.standard->node);
+    if (input.default_source && is_wired(scope, input.name.text)) dormant.insert(input.default_source->node);
   if (dormant.empty()) return dormant;
   const auto grow = [&] {
     const std::size_t before = dormant.size();
@@ -116,7 +118,7 @@ std::unordered_set<std::string> Expander::dormant_nodes(const Scope& scope) {
     const std::size_t before = dormant.size();
     for (const auto& output : document.outputs) dormant.erase(output.source.node);
     for (const auto& input : document.inputs)
-      if (input.standard && !is_wired(scope, input.name.text)) dormant.erase(input.standard->node);
+      if (input.default_source && !is_wired(scope, input.name.text)) dormant.erase(input.default_source->node);
     for (const auto& node : document.nodes)
       if (!dormant.contains(node.id.text)) for_each_source(node, [&](const Reference& r) { dormant.erase(r.node); });
     return dormant.size() != before;
@@ -364,6 +366,7 @@ void Expander::report_unknown_type(const Where& where, const std::string& type, 
 
 /// Settings of nodes that are not there.
 void Expander::report_unknown_nodes() {
+  if (overrides_.all().empty()) return;
   const Document& root = *expansion_.scopes.front().document;
   std::vector<std::string> paths;
   for (const auto& scope : expansion_.scopes)

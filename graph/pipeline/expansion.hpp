@@ -52,6 +52,10 @@ struct NodeOrigin {
   bool used = false;                     ///< something reads one of its outputs, or its file exports one
 
   Where where() const { return scope->at(source->id.place); }
+  /// For what is said of the node: by what its type was set.
+  std::vector<std::string> notes() const {
+    return swap == nullptr ? std::vector<std::string>{} : std::vector{swap->note};
+  }
 };
 
 /// The pipeline with its sub-pipelines opened, before and while it is checked.
@@ -112,8 +116,11 @@ SettledValue settle(const Setting& setting, const Scope& scope, const SourceFile
 /// Reads the parameters of every node: bounds, units, files that must exist, files that are written twice.
 void settle_params(Expansion& expansion, Overrides& overrides, Findings& findings);
 
-/// Joins the nodes: ports, their types, what is not wired or not used, cycles with their path. Makes the edges and the
-/// outputs.
+/// Joins the nodes: ports, their types, what is not wired. Makes the edges and the outputs.
 void wire(Expansion& expansion, Findings& findings);
+/// Nodes, sub-pipelines and inputs that nothing uses; after wire().
+void check_use(const Expansion& expansion, Findings& findings);
+/// Cycles, with their path.
+void check_cycles(const Expansion& expansion, Findings& findings);
 
 }  // namespace atrium

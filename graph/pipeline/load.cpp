@@ -69,9 +69,7 @@ void drop_unused_edges(Dataflow& graph) {
   boost::remove_edge_if(is_unused, graph);
 }
 
-Pipeline checked_pipeline(Dataflow graph) {
-  drop_unused_edges(graph);
-  const std::vector<bool> needed = needed_nodes(graph);
+Pipeline checked_pipeline(const Dataflow& graph, const std::vector<bool>& needed) {
   std::vector<std::size_t> order = topological_order(graph);
   std::erase_if(order, [&](std::size_t n) { return !needed[n]; });
   Pipeline pipeline = part_of(graph, order);
@@ -81,12 +79,13 @@ Pipeline checked_pipeline(Dataflow graph) {
 
 /// A setting of a node that does not run has no effect.
 void check_overrides_matter(const Document& root, const Expansion& expansion, const Overrides& overrides,
-                            const Pipeline& pipeline, Findings& findings) {
-  std::set<std::string_view> runs, known;
-  for (const std::size_t n : all_nodes(pipeline)) runs.insert(pipeline[n].path);
-  for (const std::size_t n : all_nodes(expansion.graph)) known.insert(expansion.graph[n].path);
+                            const std::vector<bool>& needed, Findings& findings) {
+  if (overrides.all().empty()) return;
+  std::set<std::string_view> idle;
+  for (const std::size_t n : all_nodes(expansion.graph))
+    if (!needed[n]) idle.insert(expansion.graph[n].path);
   for (const ParsedOverride& set : overrides.all())
-    if (known.contains(set.node) && !runs.contains(set.node))
+    if (idle.contains(set.node))
       findings.warning({&root.source, {}}, fmt::format("'{}' does not run: nothing uses what it gives", set.node),
                        "see `atrium graph` for what runs", {set.note});
 }
@@ -101,18 +100,19 @@ void read_seed(const Document& root, Overrides& overrides, Findings& findings, s
                    {set->note});
 }
 
-void check_complete(const Document& root, const Expansion& expansion, LoadOptions options, LoadResult& result,
-                    Findings& findings) {
-  const auto open = std::find_if(root.inputs.begin(), root.inputs.end(), [](const auto& i) { return !i.standard; });
+void check_complete(const Document& root, const Expansion& expansion, LoadOptions options,
+                    std::vector<std::string>& missing, Findings& findings) {
+  const auto open =
+      std::find_if(root.inputs.begin(), root.inputs.end(), [](const auto& i) { return !i.default_source; });
   for (const auto& input : root.inputs)
-    if (!input.standard) result.missing.push_back("inputs." + input.name.text);
-  for (const auto& name : expansion.missing_variables) result.missing.push_back(name);
+    if (!input.default_source) missing.push_back("inputs." + input.name.text);
+  for (const auto& name : expansion.missing_variables) missing.push_back(name);
   if (options.allow_missing) return;
   if (open != root.inputs.end())
     findings.error({&root.source, open->name.place}, "a pipeline with inputs cannot run on its own",
                    "use it in another file: `{pipeline: FILE, in: {…}}`");
   for (const auto& variable : root.variables)
-    if (std::find(result.missing.begin(), result.missing.end(), variable.name.text) != result.missing.end())
+    if (std::find(missing.begin(), missing.end(), variable.name.text) != missing.end())
       findings.error({&root.source, variable.name.place},
                      fmt::format("the variable '{}' has no value", variable.name.text),
                      fmt::format("set it: -s {}=VALUE", variable.name.text));
@@ -128,8 +128,9 @@ std::string_view framework_version() { return ATRIUM_VERSION; }
 
 LoadResult load_pipeline(const std::filesystem::path& file, const std::vector<Override>& given, Registry& registry,
                          LoadOptions options) {
-  LoadResult result;
   Findings findings;
+  std::vector<std::string> missing;
+  std::vector<bool> needed;  // empty: it cannot run
   Expansion expansion;
   const GivenPipeline found = find_given_pipeline(file.string(), findings);
   ReadDocuments own;
@@ -147,17 +148,20 @@ LoadResult load_pipeline(const std::filesystem::path& file, const std::vector<Ov
     Expander(expansion, overrides, registry, findings).expand(root);
     settle_params(expansion, overrides, findings);
     wire(expansion, findings);
+    check_use(expansion, findings);
+    check_cycles(expansion, findings);
     check_versions(expansion, findings);
     check_programs(expansion, findings);
-    check_complete(root, expansion, options, result, findings);
+    check_complete(root, expansion, options, missing, findings);
     if (findings.error_count() == 0) {
-      result.pipeline = checked_pipeline(expansion.graph);
-      check_overrides_matter(root, expansion, overrides, result.pipeline, findings);
+      drop_unused_edges(expansion.graph);
+      needed = needed_nodes(expansion.graph);
+      check_overrides_matter(root, expansion, overrides, needed, findings);
     }
   }
-  result.errors = findings.errors();
-  result.warnings = findings.warnings();
-  return result;
+  // Made in its place: Boost's graphs cannot be moved.
+  return {needed.empty() ? Pipeline() : checked_pipeline(expansion.graph, needed), findings.errors(),
+          findings.warnings(), std::move(missing)};
 }
 
 }  // namespace atrium

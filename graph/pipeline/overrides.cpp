@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "graph/pipeline/utf8.hpp"
+#include "graph/api/text.hpp"
 
 namespace atrium {
 namespace {
@@ -65,7 +65,9 @@ void Overrides::add(const Override& given, const SourceFile& root, Findings& fin
   if (given.value) {
     node = *given.value;
   } else if (const auto problem = read_value(value, node)) {
-    fail(fmt::format("'{}' cannot be read: {}", value, problem->message), problem->help);
+    const bool star = value.find("[*") != std::string::npos || value.find(" *") != std::string::npos;
+    fail(fmt::format("'{}' cannot be read: {}", value, problem->message),
+         star ? "in a list, a pattern that begins with * stands in quotes: [\"*.ply\"]" : problem->help);
     return;
   }
   const std::size_t bad = given.value ? std::string::npos : first_not_text(given.text);

@@ -103,9 +103,7 @@ std::string text_chunk(std::string_view keyword, std::string_view text) {
 PngStamp stamp_of(const Pipeline& pipeline) {
   std::error_code ignored;
   const std::string resolved = resolved_yaml(pipeline, std::filesystem::current_path(ignored));
-  ContentHash hash;
-  hash.bytes(resolved.data(), resolved.size());
-  return {hash.hex().substr(0, 16), resolved};
+  return {hash_of_text(resolved).substr(0, 16), resolved};
 }
 
 bool is_png(const std::filesystem::path& file) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "graph/api/text.hpp"
 #include "graph/pipeline/document.hpp"
 
 namespace atrium {
@@ -20,19 +21,6 @@ std::optional<std::string> variable_of(std::string_view text) {
 }
 
 namespace {
-
-std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
-  std::string result;
-  for (std::size_t at = 0; at < text.size();) {
-    if (text.substr(at).starts_with(from)) {
-      result += to;
-      at += from.size();
-    } else {
-      result += text[at++];
-    }
-  }
-  return result;
-}
 
 /// A '${' that is neither a whole value nor escaped.
 bool has_stray_variable(std::string_view text) {

@@ -6,8 +6,9 @@
 #include "graph/api/broken_link.hpp"
 #include "graph/api/folder_lock.hpp"
 #include "graph/api/suggest.hpp"
+#include "graph/api/text.hpp"
 #include "graph/pipeline/expansion.hpp"
-#include "graph/pipeline/utf8.hpp"
+#include "graph/pipeline/files_of.hpp"
 
 namespace atrium {
 namespace {
@@ -46,7 +47,7 @@ class ParamReader {
         findings_.error(origin.where(),
                         fmt::format("the parameter '{}' of '{}' ({}) is missing", info.name, origin.source->id.text,
                                     node.type->type),
-                        describe_param(info), notes());
+                        describe_param(info), origin_->notes());
       else
         place_path(i, origin.where(), {}, {&origin.scope->document->source});
     }
@@ -84,10 +85,6 @@ class ParamReader {
     return nullptr;
   }
 
-  std::vector<std::string> notes() const {
-    return origin_->swap == nullptr ? std::vector<std::string>{} : std::vector{origin_->swap->note};
-  }
-
   std::pair<std::string, std::string> unknown(const std::string& name) {
     std::vector<std::string> names;
     for (const auto& info : node_->type->params) names.push_back(info.name);
@@ -108,7 +105,7 @@ class ParamReader {
       findings_.warning(
           where,
           fmt::format("the parameter '{}' is ignored: {} has none of that name", setting.name.text, node_->type->type),
-          {}, notes());
+          {}, origin_->notes());
       return;
     }
     auto [message, help] = unknown(setting.name.text);
@@ -138,6 +135,7 @@ class ParamReader {
   void apply(std::size_t index, const SettledValue& value, const Where& where) {
     if (value.broken || !value.missing.empty()) return;
     const ParamInfo& info = node_->type->params[index];
+    if (info.kind == ParamKind::input_paths && !value.value.is_list && is_several(value, where, info)) return;
     try {
       node_->params[index] = parse_param(info, value.value);
     } catch (const Error& error) {
@@ -147,6 +145,46 @@ class ParamReader {
       return;
     }
     place_path(index, where, value.notes, value.bases);
+  }
+
+  /// A folder or a pattern without brackets: that could be meant as one scene a file, as a sweep's `scenes` are.
+  bool is_several(const SettledValue& value, const Where& where, const ParamInfo& info) {
+    const std::string& text = value.value.items.front();
+    const std::filesystem::path full = value.bases.front()->folder / text;
+    std::error_code ignored;
+    const bool folder = std::filesystem::is_directory(full, ignored);
+    if (!folder && (!is_pattern(text) || std::filesystem::exists(full, ignored))) return false;
+    findings_.error(where,
+                    fmt::format("'{}' is a {}: which file is '{}'?", text, folder ? "folder" : "pattern", info.name),
+                    fmt::format("in brackets all its files are taken together: [{}]; a sweep file's `scenes` makes one "
+                                "scene of each",
+                                text),
+                    value.notes);
+    return true;
+  }
+
+  /// Puts the files that fit in place of a pattern.
+  void expand_patterns(std::vector<std::string>& paths, std::vector<const SourceFile*>& bases, const ParamInfo& info,
+                       const Where& where, const std::vector<std::string>& origin) {
+    std::vector<std::string> expanded;
+    std::vector<const SourceFile*> bases_of_expanded;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      const SourceFile* const base = bases[std::min(i, bases.size() - 1)];
+      std::error_code ignored;
+      std::vector<std::string> found{paths[i]};
+      if (is_pattern(paths[i]) && !expansion_.any_files && !std::filesystem::exists(base->folder / paths[i], ignored)) {
+        found.clear();
+        for (const auto& file : files_of(base->folder, paths[i])) found.push_back(file.string());
+        if (found.empty())
+          findings_.error(where, fmt::format("no file fits '{}' of '{}'", paths[i], info.name),
+                          fmt::format("a pattern such as scans/*.e57; it is relative to {}", base->folder.string()),
+                          origin);
+      }
+      expanded.insert(expanded.end(), found.begin(), found.end());
+      bases_of_expanded.insert(bases_of_expanded.end(), found.size(), base);
+    }
+    paths = std::move(expanded);
+    bases = std::move(bases_of_expanded);
   }
 
   void place_path(std::size_t index, const Where& where, const std::vector<std::string>& origin,
@@ -159,8 +197,9 @@ class ParamReader {
       output_path(std::get<std::string>(value), info, where, origin);
     } else if (info.kind == ParamKind::input_paths) {
       auto& paths = std::get<std::vector<std::string>>(value);
-      for (std::size_t i = 0; i < paths.size(); ++i)
-        input_path(paths[i], info, where, origin, *bases[std::min(i, bases.size() - 1)]);
+      std::vector<const SourceFile*> of_path = bases;
+      expand_patterns(paths, of_path, info, where, origin);
+      for (std::size_t i = 0; i < paths.size(); ++i) input_path(paths[i], info, where, origin, *of_path[i]);
     }
   }
 

@@ -30,10 +30,6 @@ std::string text_of(const Reference& reference) {
   return reference.port.empty() ? reference.node : reference.node + "." + reference.port;
 }
 
-std::vector<std::string> swap_notes(const NodeOrigin& origin) {
-  return origin.swap == nullptr ? std::vector<std::string>{} : std::vector{origin.swap->note};
-}
-
 class Wirer {
  public:
   Wirer(Expansion& expansion, Findings& findings)
@@ -48,48 +44,7 @@ class Wirer {
     }
   }
 
-  void check_use() {
-    for (const std::size_t n : all_nodes(graph_)) {
-      const NodeType* type = graph_[n].type;
-      const NodeOrigin& origin = origins_[n];
-      if (type != nullptr && !origin.used && !type->sink)
-        findings_.error(origin.where(),
-                        fmt::format("nothing uses the node '{}' ({})", origin.source->id.text, type->type),
-                        "wire one of its outputs, list it under `outputs:`, or remove the node", swap_notes(origin));
-    }
-    const auto with_sinks = scopes_with_sinks();
-    for (const auto& scope : expansion_.scopes)
-      if (scope.node != nullptr && !scope.used && !with_sinks.contains(&scope))
-        findings_.error(scope.parent->at(scope.node->id.place),
-                        fmt::format("nothing uses the sub-pipeline '{}'", scope.node->id.text),
-                        "wire one of its outputs, list it under `outputs:`, or remove it");
-    for (const auto& scope : expansion_.scopes) check_inputs_used(scope);
-  }
-
-  void check_cycles() {
-    for (const auto& cycle : cycles_of(graph_)) {
-      std::string path;
-      for (const auto& edge : cycle) {
-        const PipelineNode& from = graph_[boost::source(edge, graph_)];
-        path += fmt::format("{}.{} → ", from.path, from.type->outputs[graph_[edge].output].name);
-      }
-      const std::size_t last = boost::target(cycle.back(), graph_);
-      findings_.error(place_of(cycle.back()), fmt::format("the nodes form a cycle: {}{}", path, graph_[last].path),
-                      "one of these edges must go");
-    }
-  }
-
  private:
-  /// Where the file wires the edge.
-  Where place_of(const DataflowEdge& edge) const {
-    const std::size_t to = boost::target(edge, graph_);
-    const std::size_t input = graph_[edge].input;
-    for (const auto& wired : origins_[to].source->inputs)
-      if (wired.port.text == graph_[to].type->inputs[input].name)
-        return origins_[to].scope->at(wired.sources.at(graph_[edge].place).place);
-    return origins_[to].where();
-  }
-
   void wire_node(std::size_t n) {
     const NodeOrigin& origin = origins_[n];
     const NodeType* type = graph_[n].type;
@@ -118,7 +73,7 @@ class Wirer {
             fmt::format("the input '{}' of '{}' ({}) is not wired", ports[i].name, origin.source->id.text, type->type),
             fmt::format("it takes {}{}: add `in: {{{}: node.port}}`", ports[i].repeated ? "a list of " : "",
                         ports[i].type, ports[i].name),
-            swap_notes(origin));
+            origin.notes());
     }
   }
 
@@ -131,7 +86,7 @@ class Wirer {
                     !hint.empty()   ? hint
                     : names.empty() ? fmt::format("{} has no inputs", type)
                                     : fmt::format("inputs of {}: {}", type, join_words(names)),
-                    swap_notes(origin));
+                    origin.notes());
   }
 
   void wire_port(std::size_t n, std::size_t index, const Wiring& wiring) {
@@ -141,7 +96,7 @@ class Wirer {
       findings_.error(
           origin.scope->at(wiring.port.place),
           fmt::format("the input '{}' of '{}' takes one edge, not a list", port.name, origin.source->id.text), {},
-          swap_notes(origin));
+          origin.notes());
     for (std::size_t place = 0; place < wiring.sources.size(); ++place) {
       const Reference& source = wiring.sources[place];
       Endpoint from = resolve(*origin.scope, source, true);
@@ -149,7 +104,7 @@ class Wirer {
       const Where where = origin.scope->at(source.place);
       if (from.type != port.type) {
         auto notes = std::move(from.notes);
-        for (auto& note : swap_notes(origin)) notes.push_back(std::move(note));
+        for (auto& note : origin.notes()) notes.push_back(std::move(note));
         report_type(where, source, from.type, fmt::format("'{}' of '{}'", port.name, origin.source->id.text), port.type,
                     std::move(notes));
       } else if (from.kind == Endpoint::Kind::node) {
@@ -191,8 +146,8 @@ class Wirer {
         const DocumentInput* input = declared_input(*scope, *reference, loud);
         if (input == nullptr) return result;
         if (result.type.empty()) result.type = input->type.text;
-        if (input->standard && !is_wired(*scope, reference->port)) {
-          reference = &*input->standard;
+        if (input->default_source && !is_wired(*scope, reference->port)) {
+          reference = &*input->default_source;
           continue;
         }
         if (scope->parent == nullptr) {
@@ -233,13 +188,13 @@ class Wirer {
     if (port == outputs.size()) {
       if (loud)
         report_unknown_output(scope, reference, fmt::format("'{}' ({})", reference.node, type->type), names_of(outputs),
-                              swap_notes(origin));
+                              origin.notes());
       return result;
     }
     result.kind = Endpoint::Kind::node;
     result.from = {index, port};
     if (result.type.empty()) result.type = outputs[port].type;
-    result.notes = swap_notes(origin);
+    result.notes = origin.notes();
     return result;
   }
 
@@ -304,11 +259,11 @@ class Wirer {
   /// is not looked at.
   void check_defaults(const Scope& scope) {
     for (const auto& input : scope.document->inputs) {
-      if (!input.standard || is_wired(scope, input.name.text)) continue;
-      const Endpoint from = resolve(scope, *input.standard, true);
+      if (!input.default_source || is_wired(scope, input.name.text)) continue;
+      const Endpoint from = resolve(scope, *input.default_source, true);
       if (from.kind != Endpoint::Kind::unknown && from.type != input.type.text)
-        findings_.error(scope.at(input.standard->place),
-                        fmt::format("'{}' is {}, but the input '{}' is declared as {}", text_of(*input.standard),
+        findings_.error(scope.at(input.default_source->place),
+                        fmt::format("'{}' is {}, but the input '{}' is declared as {}", text_of(*input.default_source),
                                     from.type, input.name.text, input.type.text),
                         {}, from.notes);
     }
@@ -350,8 +305,8 @@ class Wirer {
                       std::move(from.notes));
       }
     }
-    for (const auto& [name, type, standard] : declared) {
-      if (!standard && !is_wired(scope, name.text))
+    for (const auto& [name, type, default_source] : declared) {
+      if (!default_source && !is_wired(scope, name.text))
         findings_.error(scope.parent->at(scope.node->id.place),
                         fmt::format("the input '{}' of '{}' ({}) is not wired", name.text, scope.node->id.text,
                                     scope.document->source.name),
@@ -367,31 +322,6 @@ class Wirer {
     }
   }
 
-  /// The sub-pipelines in which a node runs for its own sake.
-  std::unordered_set<const Scope*> scopes_with_sinks() const {
-    std::unordered_set<const Scope*> result;
-    for (const std::size_t n : all_nodes(graph_)) {
-      if (graph_[n].type != nullptr && !graph_[n].type->sink) continue;
-      for (const Scope* scope = origins_[n].scope; scope != nullptr; scope = scope->parent)
-        if (!result.insert(scope).second) break;
-    }
-    return result;
-  }
-
-  void check_inputs_used(const Scope& scope) {
-    for (const auto& [name, type, standard] : scope.document->inputs) {
-      const auto reads = [&, &text = name.text](const Reference& r) { return r.node == "inputs" && r.port == text; };
-      bool used = false;
-      for (const auto& node : scope.document->nodes)
-        for (const auto& wiring : node.inputs)
-          used = used || std::any_of(wiring.sources.begin(), wiring.sources.end(), reads);
-      for (const auto& output : scope.document->outputs) used = used || reads(output.source);
-      if (!used)
-        findings_.error(scope.at(name.place), fmt::format("nothing uses the input '{}'", name.text),
-                        fmt::format("wire it as 'inputs.{}', or remove it", name.text));
-    }
-  }
-
   Expansion& expansion_;
   Dataflow& graph_;
   std::vector<NodeOrigin>& origins_;
@@ -400,11 +330,6 @@ class Wirer {
 
 }  // namespace
 
-void wire(Expansion& expansion, Findings& findings) {
-  Wirer wirer(expansion, findings);
-  wirer.wire();
-  wirer.check_use();
-  wirer.check_cycles();
-}
+void wire(Expansion& expansion, Findings& findings) { Wirer(expansion, findings).wire(); }
 
 }  // namespace atrium

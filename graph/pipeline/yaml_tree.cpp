@@ -16,7 +16,7 @@
 #include <unordered_map>
 
 #include "graph/api/broken_link.hpp"
-#include "graph/pipeline/utf8.hpp"
+#include "graph/api/text.hpp"
 
 namespace atrium {
 namespace {

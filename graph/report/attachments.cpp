@@ -148,7 +148,7 @@ class Collector {
   }
 
   /// The file's index; nothing if there is no room for it or it cannot be read.
-  std::optional<std::size_t> add(const RunRecord& run, const RunRecord::File& file, std::size_t room) {
+  std::optional<std::size_t> add(const RunRecord& run, const Artefact& file, std::size_t room) {
     const fs::path path = run.folder / file.path;
     const std::string hash = file.hash.empty() ? hash_if_readable(path) : file.hash;
     if (const auto known = known_.find(hash); known != known_.end()) return known->second;

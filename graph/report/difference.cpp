@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "graph/api/fact_json.hpp"
 #include "graph/cache/blob.hpp"
 
 namespace atrium::report {
@@ -40,34 +41,24 @@ void compare_parameters(const RunRecord& a, const RunRecord& b, Difference& resu
   }
 }
 
-std::optional<double> number_of(const Fact& fact) {
-  if (const auto* number = std::get_if<double>(&fact.value)) return *number;
-  if (const auto* integer = std::get_if<std::int64_t>(&fact.value)) return static_cast<double>(*integer);
-  return std::nullopt;
-}
-
 void compare_metrics(const RunRecord& a, const RunRecord& b, Difference& result) {
   const auto fact = [](const RunRecord::Metric& metric) -> const Fact& { return metric.fact; };
   for (const auto& [name, both] : Pairs<Fact>(a.metrics, b.metrics, name_of, fact).entries) {
     const auto& [of_a, of_b] = both;
-    if (of_a != nullptr && of_b != nullptr && of_a->unit == of_b->unit) {
-      const auto x = number_of(*of_a);
-      const auto y = number_of(*of_b);
-      if (of_a->value == of_b->value || (x && y && (*x == *y || (*x != *x && *y != *y)))) continue;
-    }
+    const bool comparable = of_a != nullptr && of_b != nullptr && of_a->unit == of_b->unit;
+    const auto x = comparable ? number_of(*of_a) : std::nullopt;
+    const auto y = comparable ? number_of(*of_b) : std::nullopt;
+    if (comparable && (of_a->value == of_b->value || (x && y && (*x == *y || (*x != *x && *y != *y))))) continue;
     auto& entry = result.metrics.emplace_back();
     entry.name = name;
     entry.unit = of_a != nullptr ? of_a->unit : of_b->unit;
     if (of_a != nullptr) entry.a = *of_a;
     if (of_b != nullptr) entry.b = *of_b;
-    if (of_a == nullptr || of_b == nullptr || of_a->unit != of_b->unit) continue;
-    const auto x = number_of(*of_a);
-    const auto y = number_of(*of_b);
     if (x && y) entry.change = *y - *x;
   }
 }
 
-std::string content(const RunRecord& run, const RunRecord::File& file) {
+std::string content(const RunRecord& run, const Artefact& file) {
   return file.hash.empty() ? hash_if_readable(run.folder / file.path) : file.hash;
 }
 
@@ -89,9 +80,9 @@ void compare_pictures(const fs::path& a, const fs::path& b, const std::string& p
 }
 
 void compare_files(const RunRecord& a, const RunRecord& b, const fs::path& target, Difference& result) {
-  const auto key = [](const RunRecord::File& file) -> const std::string& { return file.path; };
-  const auto self = [](const RunRecord::File& file) -> const RunRecord::File& { return file; };
-  for (const auto& [path, both] : Pairs<RunRecord::File>(a.files, b.files, key, self).entries) {
+  const auto key = [](const Artefact& file) -> const std::string& { return file.path; };
+  const auto self = [](const Artefact& file) -> const Artefact& { return file; };
+  for (const auto& [path, both] : Pairs<Artefact>(a.files, b.files, key, self).entries) {
     const auto& [of_a, of_b] = both;
     if (of_a == nullptr || of_b == nullptr) {
       result.files.push_back({path, of_a != nullptr, of_b != nullptr, of_a != nullptr ? of_a->bytes : 0,
@@ -108,7 +99,7 @@ void compare_files(const RunRecord& a, const RunRecord& b, const fs::path& targe
 }
 
 /// The first output with another hash; "" if the status differs; nothing if they are the same.
-std::optional<std::string> different_output(const RunRecord::Node& a, const RunRecord::Node& b, bool& known) {
+std::optional<std::string> different_output(const NodeRecord& a, const NodeRecord& b, bool& known) {
   if (a.status != b.status) return "";
   for (const auto& output : a.outputs) {
     const auto other =
@@ -123,10 +114,10 @@ std::optional<std::string> different_output(const RunRecord::Node& a, const RunR
 }
 
 void compare_nodes(const RunRecord& a, const RunRecord& b, Difference& result) {
-  std::map<std::string, const RunRecord::Node*> of_b;
-  for (const auto& node : b.nodes) of_b.emplace(node.path, &node);
+  std::map<std::string, const NodeRecord*> of_b;
+  for (const auto& node : b.nodes) of_b.emplace(node.node, &node);
   for (const auto& node : a.nodes) {
-    const auto other = of_b.find(node.path);
+    const auto other = of_b.find(node.node);
     if (other == of_b.end()) continue;
     ++result.compared_nodes;
     bool known = true;
@@ -134,7 +125,7 @@ void compare_nodes(const RunRecord& a, const RunRecord& b, Difference& result) {
     result.unknown_nodes += known || port ? 0 : 1;
     if (!port) continue;
     ++result.different_nodes;
-    if (!result.first) result.first = Difference::Node{node.path, other->second->type, *port};
+    if (!result.first) result.first = Difference::Node{node.node, other->second->type, *port};
   }
 }
 

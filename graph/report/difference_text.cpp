@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/fact_json.hpp"
 #include "graph/api/json_text.hpp"
+#include "graph/api/text.hpp"
 #include "graph/report/difference.hpp"
 
 namespace atrium::report {
@@ -12,42 +14,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string shown(const std::optional<Fact>& fact) {
-  if (!fact) return "–";
-  return std::visit(
-      [](const auto& value) {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>)
-          return fmt::format("{:.6g}", value);
-        else
-          return fmt::format("{}", value);
-      },
-      fact->value);
-}
-
-/// Lines of columns, each as wide as its widest cell; letters are counted, not bytes.
-std::string aligned(const std::vector<std::vector<std::string>>& rows) {
-  const auto letters = [](const std::string& text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-  };
-  std::vector<std::size_t> widths;
-  for (const auto& row : rows)
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      widths.resize(std::max(widths.size(), c + 1), 0);
-      widths[c] = std::max(widths[c], letters(row[c]));
-    }
-  std::string text;
-  for (const auto& row : rows) {
-    std::string line = " ";
-    for (std::size_t c = 0; c < row.size(); ++c)
-      line += " " + row[c] + std::string(widths[c] - letters(row[c]) + 1, ' ');
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  }
-  return text;
-}
+std::string shown(const std::optional<Fact>& fact) { return fact ? fact_text(*fact) : "–"; }
 
 std::string section(std::string_view title, const std::vector<std::vector<std::string>>& rows) {
-  return rows.empty() ? "" : fmt::format("{}\n{}", title, aligned(rows));
+  return rows.empty() ? "" : fmt::format("{}\n{}", title, aligned(rows, {}, "  "));
 }
 
 std::string pixels_text(const Difference::PictureFile& picture) {
@@ -69,12 +39,7 @@ std::string nodes_text(const Difference& d) {
   return text;
 }
 
-Json value_json(const std::optional<Fact>& fact) {
-  Json json;
-  if (fact) std::visit([&](const auto& value) { json = value; }, fact->value);
-  return json;
-}
-
+Json value_json(const std::optional<Fact>& fact) { return fact ? atrium::value_json(*fact) : Json(); }
 Json text_json(const std::optional<std::string>& text) { return text ? Json(*text) : Json(); }
 
 Json picture_json(const Difference::PictureFile& picture) {

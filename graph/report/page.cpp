@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
@@ -11,7 +10,9 @@
 #include "graph/api/context.hpp"
 #include "graph/api/files.hpp"
 #include "graph/api/json_text.hpp"
+#include "graph/api/text.hpp"
 #include "graph/pipeline/pipeline.hpp"
+#include "graph/run/node_json.hpp"
 
 namespace atrium::report {
 namespace {
@@ -83,14 +84,9 @@ Json parameters_json(const SweepRecord& record) {
 }
 
 /// Without the path of the variant's folder: a report is read on other machines.
-std::string portable(std::string message, const fs::path& folder) {
-  const std::string path = fs::absolute(folder).lexically_normal().string() + "/";
-  for (auto at = message.find(path); at != std::string::npos; at = message.find(path, at))
-    message.erase(at, path.size());
-  return message;
+std::string portable(const std::string& message, const fs::path& folder) {
+  return replaced(message, fs::absolute(folder).lexically_normal().string() + "/", "");
 }
-
-double rounded(double seconds) { return std::round(seconds * 1e6) / 1e6; }
 
 /// Node types by name, and per variant [node, status, wall seconds, CPU seconds, peak memory, 1 if the cache had it].
 class NodeNames {
@@ -98,10 +94,10 @@ class NodeNames {
   Json times_of(const RunRecord& run) {
     Json times = Json::array();
     for (const auto& node : run.nodes) {
-      const auto [known, fresh] = index_.try_emplace(node.path, names_.size());
-      if (fresh) names_.push_back(node.path);
-      times.push_back(
-          {known->second, node.status, rounded(node.wall), rounded(node.cpu), node.peak_memory, node.known ? 1 : 0});
+      const auto [known, fresh] = index_.try_emplace(node.node, names_.size());
+      if (fresh) names_.push_back(node.node);
+      times.push_back({known->second, name_of(node.status), rounded_seconds(node.computing_wall()),
+                       rounded_seconds(node.computing_cpu()), node.computing_memory(), node.is_from_cache() ? 1 : 0});
     }
     return times;
   }
@@ -147,19 +143,6 @@ Json variant_json(const SweepRecord& record, std::size_t v, const Attachments& a
   return json;
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '<')
-      result += "&lt;";
-    else if (c == '&')
-      result += "&amp;";
-    else
-      result += c;
-  }
-  return result;
-}
-
 std::string read_page(const fs::path& page) {
   if (!fs::exists(page))
     throw Error("the page that reports are written into is not there: " + page.string(),
@@ -196,16 +179,7 @@ std::string page_data(const SweepRecord& record, const Attachments& attachments)
                   {"notes", std::move(notes)},
                   {"variants", std::move(variants)}};
   // In JSON "<" stands in texts only: no text can end the element that the JSON is in.
-  const std::string text = json_text(json);
-  std::string safe;
-  safe.reserve(text.size());
-  for (const char c : text) {
-    if (c == '<')
-      safe += "\\u003c";
-    else
-      safe += c;
-  }
-  return safe;
+  return replaced(json_text(json), "<", "\\u003c");
 }
 
 std::size_t write_page(const fs::path& target, const SweepRecord& record, const Attachments& attachments,
@@ -225,7 +199,7 @@ std::size_t write_page(const fs::path& target, const SweepRecord& record, const 
   const std::string_view whole = text;
   const std::size_t name = title + std::string_view("<title>").size();
   write(whole.substr(0, name));
-  write(escaped(record.title) + " – ");
+  write(replaced(replaced(record.title, "&", "&amp;"), "<", "&lt;") + " – ");
   write(whole.substr(name, data - name));
   write("<script type=\"application/json\" id=\"data\">");
   write(page_data(record, attachments));

@@ -6,54 +6,32 @@
 
 #include "graph/api/fact_json.hpp"
 #include "graph/api/files.hpp"
-#include "graph/pipeline/utf8.hpp"
+#include "graph/api/json_text.hpp"
+#include "graph/api/text.hpp"
 #include "graph/pipeline/yaml_tree.hpp"
-#include "graph/run/record_json.hpp"
+#include "graph/run/node_json.hpp"
 
 namespace atrium::report {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-RunRecord::Node read_node(const json& entry) {
-  RunRecord::Node node{entry.at("node").get<std::string>(),
-                       entry.at("type").get<std::string>(),
-                       entry.at("status").get<std::string>(),
-                       entry.value("wall_seconds", 0.0),
-                       entry.value("cpu_seconds", 0.0),
-                       entry.value("peak_memory", std::uint64_t{0}),
-                       {},
-                       entry.value("known", false)};
-  // manifest.json has both: what it took to find it in the cache, and what it took when it was computed.
-  const json use = entry.value("cache", json::object());
-  if (use.value("result", "") == "hit" && !use.contains("why")) {
-    node.known = true;
-    node.wall = use.value("computing_wall_seconds", node.wall);
-    node.cpu = use.value("computing_cpu_seconds", node.cpu);
-    node.peak_memory = use.value("computing_peak_memory", node.peak_memory);
-  }
-  for (const auto& output : entry.value("outputs", json::array()))
-    node.outputs.push_back({output.at("port").get<std::string>(), output.value("hash", "")});
-  return node;
-}
 
 /// Somebody else may have written the list: what is not in the folder is neither read nor shown.
 void read_files(const json& artefacts, RunRecord& record) {
-  for (const auto& file : artefacts) {
-    auto path = file.at("path").get<std::string>();
-    if (place_inside(record.folder, path))
-      record.files.push_back({std::move(path), file.at("bytes").get<std::uint64_t>(), file.value("hash", "")});
+  for (const auto& entry : artefacts) {
+    auto file = entry.get<Artefact>();
+    if (place_inside(record.folder, file.path))
+      record.files.push_back(std::move(file));
     else
-      record.outside.push_back(std::move(path));
+      record.outside.push_back(std::move(file.path));
   }
 }
 
 void read_nodes(const json& nodes, RunRecord& record) {
   for (const auto& entry : nodes) {
-    record.nodes.push_back(read_node(entry));
-    if (record.message.empty() && record.nodes.back().status == "failed" && entry.contains("message"))
-      record.message = record.nodes.back().path + ": " + entry.at("message").get<std::string>();
+    const NodeRecord& node = record.nodes.emplace_back(read_node(entry));
+    if (record.message.empty() && !node.message.empty()) record.message = node.node + ": " + node.message;
   }
 }
 
@@ -67,7 +45,7 @@ void read_variant(const json& result, RunRecord& record) {
   read_nodes(result.at("nodes"), record);
   for (const auto& output : result.at("outputs"))
     for (const auto& fact : output.at("facts"))
-      record.metrics.push_back({output.at("name").get<std::string>(), read_fact(fact)});
+      record.metrics.push_back({output.at("name").get<std::string>(), fact.get<Fact>()});
   read_files(result.at("artefacts"), record);
 }
 
@@ -78,7 +56,7 @@ void read_manifest(const json& manifest, RunRecord& record) {
   read_nodes(manifest.at("nodes"), record);
   for (const auto& node : manifest.at("nodes")) read_files(node.value("artefacts", json::array()), record);
   for (const auto& [name, output] : manifest.at("outputs").items())
-    for (const auto& fact : output.value("facts", json::array())) record.metrics.push_back({name, read_fact(fact)});
+    for (const auto& fact : output.value("facts", json::array())) record.metrics.push_back({name, fact.get<Fact>()});
 }
 
 std::string text_of(const YamlNode& node) {
@@ -123,14 +101,6 @@ YamlTree read_resolved(const std::string& file) {
 
 }  // namespace
 
-json read_json(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw Error("cannot read " + file.string());
-  json result = json::parse(stream, nullptr, false);
-  if (!result.is_object()) throw Error(file.string() + " is no JSON file of Atrium");
-  return result;
-}
-
 std::string name_of(const RunRecord::Metric& metric) {
   return metric.fact.name.empty() ? metric.output : metric.output + "." + metric.fact.name;
 }
@@ -143,7 +113,8 @@ RunRecord read_run(const fs::path& folder) {
   if (!fs::exists(file))
     throw Error(folder.string() + " is no folder of a run: it has neither manifest.json nor result.json",
                 "`atrium run FILE --out FOLDER` makes one, `atrium sweep run` one per variant: FOLDER/variants/ID");
-  const json recorded = read_json(file);
+  const json recorded = read_json_file(file);
+  if (!recorded.is_object()) throw Error(file.string() + " cannot be read, or is no JSON file of Atrium");
   try {
     if (variant)
       read_variant(recorded, record);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/fact_json.hpp"
 #include "graph/api/files.hpp"
 #include "graph/api/json_text.hpp"
 #include "graph/run/run_folder.hpp"
@@ -23,15 +25,8 @@ Cell cell_of(const ordered_json& json) {
 }
 
 Cell cell_of(const Fact& fact) {
-  if (const auto* text = std::get_if<std::string>(&fact.value)) return *text;
-  double number = 0;
-  std::visit(
-      [&](const auto& value) {
-        if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) number = static_cast<double>(value);
-      },
-      fact.value);
-  if (number - number != 0) return fmt::format("{}", number);
-  return number;
+  const auto number = number_of(fact);
+  return number && std::isfinite(*number) ? Cell(*number) : Cell(fact_text(fact));
 }
 
 void read_axes(const fs::path& file, SweepRecord& record) {

@@ -10,7 +10,7 @@ using Decision = PlannedNode::Decision;
 /// Whether the record is of a node with these outputs.
 bool fits(const CacheRecord& record, const NodeType& type) {
   return std::equal(record.outputs.begin(), record.outputs.end(), type.outputs.begin(), type.outputs.end(),
-                    [](const CacheRecord::Output& output, const PortInfo& port) {
+                    [](const OutputRecord& output, const PortInfo& port) {
                       return output.port == port.name && output.type == port.type;
                     });
 }

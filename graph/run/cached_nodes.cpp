@@ -1,16 +1,15 @@
 // The scheduler's steps with a cache.
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <ctime>
 #include <set>
 #include <tuple>
 
 #include "graph/api/clocks.hpp"
 #include "graph/api/files.hpp"
+#include "graph/api/text.hpp"
 #include "graph/cache/costs.hpp"
 #include "graph/run/node_host.hpp"
 #include "graph/run/scheduler.hpp"
@@ -77,10 +76,7 @@ void Scheduler::reopen(std::size_t n) {
   state.kept.clear();
   state.settled = state.blocked = false;
   state.blocker = states_.size();
-  NodeRecord fresh;
-  fresh.node = result_.nodes[n].node;
-  fresh.type = result_.nodes[n].type;
-  result_.nodes[n] = std::move(fresh);
+  result_.nodes[n] = NodeRecord(pipeline_[n]);
 }
 
 /// Whether a round has neither settled a node nor found out anything: another one would not either. It does not happen
@@ -127,10 +123,10 @@ bool Scheduler::is_planned_for_what_is(std::size_t n) const {
 
 /// Takes what the node did from its record. False: it is to run.
 bool Scheduler::take_from_cache(std::size_t n) {
-  const PlannedNode& planned = plan_[n];
+  PlannedNode& planned = plan_[n];
   CacheLookup& found = states_[n].found;
   if (is_planned_for_what_is(n)) {
-    found = planned.found;
+    found = std::move(planned.found);  // nobody else looks at it
     // A node of the same key may have been run meanwhile.
     if (!found.record && !found.key.fields.empty() && !states_[n].unreplayable)
       found.record = cache_->find(pipeline_[n].type->type, found.key.hex());
@@ -189,10 +185,7 @@ bool Scheduler::replay(std::size_t n, const CacheRecord& found) {
   host.finish(record);
   record.start = start;
   record.thread = tbb::this_task_arena::current_thread_index();
-  for (const auto& output : found.outputs) {
-    record.outputs.push_back({output.port, output.type, output.bytes, output.hash});
-    record.facts.push_back(output.facts);
-  }
+  record.outputs = found.outputs;
   record.status = NodeStatus::ok;
   record.wall = wall_seconds() - start_ - start;
   record.cpu = thread_cpu_seconds() - cpu;
@@ -255,9 +248,7 @@ void Scheduler::run_for_values(std::size_t n) {
     return;
   }
   NodeRecord& record = result_.nodes[n];
-  NodeRecord before = std::exchange(record, {});
-  record.node = before.node;
-  record.type = before.type;
+  NodeRecord before = std::exchange(record, NodeRecord(pipeline_[n]));
   Inputs inputs;
   {
     const std::lock_guard lock(mutex_);
@@ -265,7 +256,7 @@ void Scheduler::run_for_values(std::size_t n) {
   }
   std::vector<Value> outputs;
   std::optional<std::uint64_t> growth;
-  const bool ok = call_watched(n, std::move(inputs), outputs, growth);
+  const bool ok = call_watched(n, std::move(inputs), outputs, growth) && note_facts(n, outputs);
   if (ok) describe(n, outputs);
   std::string changed;
   for (std::size_t i = 0; ok && i < outputs.size() && changed.empty(); ++i)
@@ -284,7 +275,6 @@ void Scheduler::run_for_values(std::size_t n) {
   }
   cache_->forget(record.type, before.cache.key);
   if (ok && !std::exchange(states_[n].drifted, true)) {
-    note_facts(n, outputs);
     record.status = NodeStatus::ok;
     record.cache = {CacheUse::Result::miss, before.cache.key,
                     fmt::format("run again, it gave another '{}' than before", changed)};
@@ -340,13 +330,10 @@ void Scheduler::keep(std::size_t n, const std::vector<Value>& outputs, std::opti
   } catch (const std::exception&) {
     return;
   }
-  CacheRecord record{key.hex(), key.fields, address_of(node),
-                     fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))};
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    const OutputRecord& output = done.outputs[i];
+  CacheRecord record{key.hex(), key.fields, address_of(node), utc_text()};
+  for (const auto& output : done.outputs)
     if (output.hash.empty()) return;
-    record.outputs.push_back({output.port, output.type, output.bytes, output.hash, done.facts[i]});
-  }
+  record.outputs = done.outputs;
   record.warnings = done.warnings;
   record.files = state.kept;
   record.wall = done.wall;

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "graph/api/clocks.hpp"
+#include "graph/api/text.hpp"
 
 namespace atrium {
 namespace {
@@ -23,16 +24,6 @@ std::size_t columns(std::FILE* stream) {
   winsize size{};
   if (::ioctl(::fileno(stream), TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
   return size.ws_col;
-}
-
-// Cut to so many characters (not bytes) of UTF-8.
-std::string cut(const std::string& text, std::size_t width) {
-  std::size_t characters = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool begins = (static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U;
-    if (begins && ++characters > width) return text.substr(0, i);
-  }
-  return text;
 }
 
 bool is_set(const char* variable) {
@@ -115,7 +106,7 @@ void ConsoleProgress::finished(const NodeRecord& node) {
     if (!node.help.empty()) line("  help: " + node.help);
   } else if (node.status == NodeStatus::ok && !options_.quiet && !options_.live &&
              (nodes_ <= few_nodes || node.wall >= worth_a_line)) {
-    line(node.is_hit() ? node.node + ": known to the cache" : fmt::format("{}: {:.2f} s", node.node, node.wall));
+    line(node.is_hit() ? node.node + ": cached" : fmt::format("{}: {:.2f} s", node.node, node.wall));
   }
 }
 
@@ -157,7 +148,7 @@ void ConsoleProgress::draw() {
     end += fmt::format(", about {} left", clock_text(elapsed / share - elapsed));
   const std::size_t width = columns(options_.stream) - 1;
   const std::string begin = fmt::format("[{}/{}] {}", done_, nodes_, running_nodes());
-  const std::string shown = cut(begin, width > end.size() ? width - end.size() : 0) + cut(end, width);
+  const std::string shown = shortened(begin, width > end.size() ? width - end.size() : 0) + shortened(end, width);
   std::fprintf(options_.stream, "\r%s\x1b[K", shown.c_str());
   std::fflush(options_.stream);
   drawn_ = true;

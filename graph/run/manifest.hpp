@@ -1,5 +1,4 @@
 #pragma once
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -15,8 +14,5 @@ std::string manifest_json(const Pipeline& pipeline, const RunResult& result, con
 /// the run is going to write, and what it is about to remove of an earlier one.
 std::string unfinished_manifest(const Pipeline& pipeline, const std::string& started,
                                 const std::vector<std::string>& to_remove);
-
-/// What the cache had of a node: {"result": "hit" or "miss", "key": …, "why": …, …}.
-nlohmann::ordered_json cache_json(const CacheUse& use);
 
 }  // namespace atrium

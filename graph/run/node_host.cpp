@@ -59,9 +59,9 @@ void NodeHost::keep(const std::filesystem::path& file) {
   if (hash && !gone) kept_[relative.generic_string()] = {relative.generic_string(), bytes, *hash};
 }
 
-std::vector<CacheRecord::File> NodeHost::kept() {
+std::vector<Artefact> NodeHost::kept() {
   const std::lock_guard lock(mutex_);
-  std::vector<CacheRecord::File> files;
+  std::vector<Artefact> files;
   for (const auto& [path, file] : kept_) files.push_back(file);
   return files;
 }

@@ -41,7 +41,7 @@ class NodeHost final : public ContextHost {
   /// Hands over what the node has said and written; after its end.
   void finish(NodeRecord& record);
   /// What the cache has of the files that were written: fewer if it could not keep one.
-  std::vector<CacheRecord::File> kept();
+  std::vector<Artefact> kept();
 
  private:
   void keep(const std::filesystem::path& file);
@@ -56,7 +56,7 @@ class NodeHost final : public ContextHost {
   std::mutex mutex_;
   std::vector<std::string> warnings_;
   std::vector<std::filesystem::path> files_;
-  std::map<std::string, CacheRecord::File> kept_;  ///< by path
+  std::map<std::string, Artefact> kept_;  ///< by path
   double helped_ = 0;
 };
 

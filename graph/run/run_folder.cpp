@@ -1,14 +1,14 @@
 #include "graph/run/run_folder.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "graph/api/files.hpp"
+#include "graph/api/json_text.hpp"
+#include "graph/api/text.hpp"
 #include "graph/cache/node_key.hpp"
 #include "graph/run/manifest.hpp"
 #include "graph/run/node_host.hpp"
@@ -18,11 +18,11 @@ namespace atrium {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 // Null unless the folder holds a run of ours.
-nlohmann::json read_manifest(const fs::path& folder) {
-  std::ifstream file(folder / "manifest.json");
-  auto manifest = nlohmann::json::parse(file, nullptr, false);
+Json read_manifest(const fs::path& folder) {
+  Json manifest = read_json_file(folder / "manifest.json");
   if (!manifest.is_object() || !manifest.contains("atrium")) return nullptr;
   return manifest;
 }
@@ -42,13 +42,13 @@ std::set<fs::path> files_read(const Pipeline& pipeline) {
 }
 
 /// What an earlier run wrote: the files that its manifest lists, with their sizes.
-std::vector<std::pair<std::string, std::uint64_t>> written_by(const nlohmann::json& manifest) {
+std::vector<std::pair<std::string, std::uint64_t>> written_by(const Json& manifest) {
   std::vector<std::pair<std::string, std::uint64_t>> files;
   try {
-    for (const auto& node : manifest.value("nodes", nlohmann::json::array()))
-      for (const auto& artefact : node.value("artefacts", nlohmann::json::array()))
+    for (const auto& node : manifest.value("nodes", Json::array()))
+      for (const auto& artefact : node.value("artefacts", Json::array()))
         files.emplace_back(artefact.value("path", ""), artefact.value("bytes", 0U));
-  } catch (const nlohmann::json::exception&) {
+  } catch (const Json::exception&) {
     throw FolderError("the manifest.json of an earlier run cannot be understood",
                       "choose another folder with --out, or empty it");
   }
@@ -73,31 +73,45 @@ void write_file(const fs::path& target, const std::string& text, bool flush) {
   file.publish(flush);
 }
 
-RunFolder::RunFolder(fs::path folder, const Pipeline& pipeline)
-    : folder_(std::move(folder)),
-      pipeline_(pipeline),
-      started_(fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))) {
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error) throw FolderError("cannot make the folder " + folder_.string() + ": " + error.message());
-  refuse_what_is_no_run(folder_);  // before anything, even a lock, is put into it
+void make_out_folder(const fs::path& folder) {
   try {
-    lock_.emplace(folder_, FolderLock::Kind::alone);
+    make_folder(folder);
   } catch (const Error& problem) {
     throw FolderError(problem.what(), problem.help());
   }
-  if (!lock_->held())
-    throw FolderError(fmt::format("another run is writing into {} ({})", folder_.string(), lock_->holder()),
-                      "choose another folder with --out");
+}
+
+void lock_out_folder(const fs::path& folder, FolderLock::Kind kind, std::string_view what,
+                     std::optional<FolderLock>& lock) {
+  try {
+    lock.emplace(folder, kind);
+  } catch (const Error& problem) {
+    throw FolderError(problem.what(), problem.help());
+  }
+  if (!lock->held())
+    throw FolderError(fmt::format("another {} is writing into {} ({})", what, folder.string(), lock->holder()),
+                      "wait for it, or choose another folder with --out");
+}
+
+std::vector<fs::path> unfinished_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, ignored))
+    if (!name_of_unfinished(entry.path().filename().string()).empty()) files.push_back(entry.path());
+  return files;
+}
+
+RunFolder::RunFolder(fs::path folder, const Pipeline& pipeline)
+    : folder_(std::move(folder)), pipeline_(pipeline), started_(utc_text()) {
+  make_out_folder(folder_);
+  refuse_what_is_no_run(folder_);  // before anything, even a lock, is put into it
+  lock_out_folder(folder_, FolderLock::Kind::alone, "run", lock_);
   refuse_what_is_no_run(folder_);
   const auto earlier = files_of_earlier_run();
   write_file(folder_ / "manifest.json", unfinished_manifest(pipeline_, started_, earlier));
-  std::vector<fs::path> to_remove;
-  to_remove.reserve(earlier.size());
+  std::vector<fs::path> to_remove = unfinished_files(folder_);
   for (const auto& path : earlier) to_remove.push_back(place_inside(folder_, path).value_or(fs::path()));
   std::error_code ignored;
-  for (const auto& entry : fs::recursive_directory_iterator(folder_, ignored))
-    if (!name_of_unfinished(entry.path().filename().string()).empty()) to_remove.push_back(entry.path());
   remove_unless_read(to_remove);
   fs::remove(folder_ / written_journal, ignored);
   fs::remove(folder_ / "trace.json", ignored);

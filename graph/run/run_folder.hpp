@@ -12,6 +12,14 @@ namespace atrium {
 /// Writes a whole file: beside, then renamed. Without `flush` it may be cut off after a power failure. Throws Error.
 void write_file(const std::filesystem::path& target, const std::string& text, bool flush = true);
 
+/// Makes the folder. Throws FolderError.
+void make_out_folder(const std::filesystem::path& folder);
+/// Locks it; `what` ("run", "sweep") has it if it cannot be had. Throws FolderError.
+void lock_out_folder(const std::filesystem::path& folder, FolderLock::Kind kind, std::string_view what,
+                     std::optional<FolderLock>& lock);
+/// Files in it, and below, that nobody has finished. To be called by who has locked it alone.
+std::vector<std::filesystem::path> unfinished_files(const std::filesystem::path& folder);
+
 /// The file that marks the folder of a sweep.
 inline constexpr std::string_view sweep_mark = "sweep.json";
 

@@ -1,9 +1,5 @@
 #include "graph/run/runner.hpp"
 
-#include <algorithm>
-
-#include "graph/api/clocks.hpp"
-#include "graph/cache/cache.hpp"
 #include "graph/run/run_folder.hpp"
 #include "graph/run/scheduler.hpp"
 
@@ -18,34 +14,24 @@ std::string_view name_of(NodeStatus status) {
   }
 }
 
-void finish_cache(Cache* cache, RunResult& result) {
-  if (cache == nullptr) return;
-  cache->finish();
-  Cache::Use use = cache->use();
-  result.cache_folder = cache->places().folder.string();
-  result.loaded = use.loaded;
-  result.kept = use.kept;
-  result.cache_problems = std::move(use.problems);
+std::string_view status_of(const RunResult& run) {
+  return !run.failures.empty() ? "failed" : run.cancelled ? "cancelled" : "ok";
+}
+
+void sum_up(RunResult& run) {
+  for (const auto& node : run.nodes) {
+    if (node.status == NodeStatus::failed) run.failures.push_back({node.node, node.type, node.message, node.help});
+    run.cancelled = run.cancelled || node.status == NodeStatus::cancelled;
+  }
 }
 
 RunResult run_pipeline(const Pipeline& pipeline, const RunOptions& options, ProgressSink& progress) {
   RunOptions absolute = options;
   if (!options.out.empty()) absolute.out = std::filesystem::absolute(options.out).lexically_normal();
   Scheduler scheduler(pipeline, absolute, progress);
-  if (options.out.empty()) {
-    RunResult result = scheduler.run();
-    finish_cache(options.cache, result);
-    return result;
-  }
+  if (options.out.empty()) return scheduler.run();
   RunFolder folder(absolute.out, pipeline);
-  const double wall = wall_seconds();
-  const double cpu = process_cpu_seconds();
   RunResult result = scheduler.run();
-  finish_cache(options.cache, result);
-  result.wall = wall_seconds() - wall;
-  result.cpu = process_cpu_seconds() - cpu;
-  result.peak_memory = peak_memory();
-  for (const auto& node : result.nodes) result.peak_memory = std::max(result.peak_memory, node.peak_memory);
   folder.finish(result);
   return result;
 }

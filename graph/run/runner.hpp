@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "graph/cache/record.hpp"
 #include "graph/pipeline/pipeline.hpp"
 #include "graph/pipeline/png_stamp.hpp"
 
@@ -34,19 +35,6 @@ enum class NodeStatus {
 };
 std::string_view name_of(NodeStatus status);
 
-/// What one output of a node was.
-struct OutputRecord {
-  std::string port, type;
-  std::uint64_t bytes = 0;  ///< held by the value itself, without what it shares with others
-  std::string hash;         ///< of its contents; empty when hashes are off or the node is not ok
-};
-
-/// A file that a node wrote.
-struct Artefact {
-  std::string path;  ///< relative to the run's folder; absolute if it is not in it
-  std::uint64_t bytes = 0;
-};
-
 /// What the cache had of a node.
 struct CacheUse {
   enum class Result { off, hit, miss } result = Result::off;
@@ -61,6 +49,7 @@ struct CacheUse {
 /// What became of one node. Seconds are since the run's start (`start`) or lengths of time.
 struct NodeRecord {
   std::string node, type;
+  int version = 1;  ///< of the type
   NodeStatus status = NodeStatus::cancelled;
   std::string message, help;  ///< of a failed node
   std::string because;  ///< of a skipped node: the failed node that it depends on (the first in the pipeline's order)
@@ -73,18 +62,22 @@ struct NodeRecord {
   /// Highest resident memory of the process up to the node's end, bytes; with one thread: while the node ran. With that
   /// of a program that computed for the node.
   std::uint64_t peak_memory = 0;
-  int thread = 0;  ///< which of the run's threads, from 0
-  std::vector<OutputRecord> outputs;
-  std::vector<std::vector<Fact>> facts;  ///< per output: what is printed of it
+  int thread = 0;                     ///< which of the run's threads, from 0
+  std::vector<OutputRecord> outputs;  ///< of a node that is ok
   std::vector<std::string> warnings;
-  std::vector<Artefact> artefacts;
+  std::vector<Artefact> artefacts;  ///< relative to the run's folder
   CacheUse cache;
 
+  NodeRecord() = default;
+  /// Nothing has become of it yet.
+  explicit NodeRecord(const PipelineNode& of) : node(of.path), type(of.type->type), version(of.type->version) {}
+
   bool is_hit() const { return cache.result == CacheUse::Result::hit; }
+  bool is_from_cache() const { return is_hit() && !cache.again; }
   /// What computing it took, now or when it was.
-  double computing_wall() const { return is_hit() && !cache.again ? cache.wall : wall; }
-  double computing_cpu() const { return is_hit() && !cache.again ? cache.cpu : cpu; }
-  std::uint64_t computing_memory() const { return is_hit() && !cache.again ? cache.peak_memory : peak_memory; }
+  double computing_wall() const { return is_from_cache() ? cache.wall : wall; }
+  double computing_cpu() const { return is_from_cache() ? cache.cpu : cpu; }
+  std::uint64_t computing_memory() const { return is_from_cache() ? cache.peak_memory : peak_memory; }
 };
 
 struct NodeFailure {
@@ -95,7 +88,7 @@ struct RunResult {
   std::vector<NodeFailure> failures;  ///< in the pipeline's order; empty and not cancelled: the run is complete
   bool cancelled = false;
   /// The pipeline's named outputs, as far as their values are there: the node is ok, and its value was not in the
-  /// cache only (NodeRecord::facts has what is printed of it).
+  /// cache only (OutputRecord::facts has what is printed of it).
   std::map<std::string, Value> outputs;
   std::vector<NodeRecord> nodes;  ///< one per node of the pipeline, in its order
   int threads = 0;
@@ -105,6 +98,11 @@ struct RunResult {
   std::uint64_t loaded = 0, kept = 0;  ///< bytes of values, from and to the cache
   std::vector<std::string> cache_problems;
 };
+
+/// "ok", "failed" or "cancelled".
+std::string_view status_of(const RunResult& run);
+/// Fills in the failures and whether the run was ended, from what became of its nodes.
+void sum_up(RunResult& run);
 
 /// The run's folder cannot be used.
 class FolderError : public Error {
@@ -135,8 +133,5 @@ class ProgressSink {
 /// is cancelled). Results do not depend on the number of threads. Throws FolderError, and Error if the
 /// pipeline is not one (nodes in a circle).
 RunResult run_pipeline(const Pipeline& pipeline, const RunOptions& options, ProgressSink& progress);
-
-/// Waits until the cache has written what it keeps, and takes over what it did. Null: does nothing.
-void finish_cache(Cache* cache, RunResult& result);
 
 }  // namespace atrium

@@ -4,23 +4,12 @@
 #include <tbb/task_group.h>
 
 #include <algorithm>
-#include <new>
 #include <tuple>
 
 #include "graph/api/clocks.hpp"
-#include "graph/api/helper_memory.hpp"
-#include "graph/run/node_host.hpp"
 #include "graph/run/run_threads.hpp"
 
 namespace atrium {
-namespace {
-
-// Nodes shorter than this share the last reading of the process's peak memory: a reading takes about as long as a small
-// node.
-constexpr double peak_reading_interval = 1e-3;
-constexpr const char* help_for_memory = "give it fewer points (a coarser voxel grid, a crop), or run with -j 1";
-
-}  // namespace
 
 bool Scheduler::Ready::operator<(const Ready& other) const {
   return std::tuple(stamp, is_end, remaining, other.node) <
@@ -39,10 +28,9 @@ Scheduler::Scheduler(const Pipeline& pipeline, const RunOptions& options, Progre
 }
 
 void Scheduler::prepare() {
-  result_.nodes.resize(states_.size());
+  result_.nodes.reserve(states_.size());
   for (const std::size_t n : all_nodes(pipeline_)) {
-    result_.nodes[n].node = pipeline_[n].path;
-    result_.nodes[n].type = pipeline_[n].type->type;
+    result_.nodes.emplace_back(pipeline_[n]);
     states_[n].values.resize(pipeline_[n].type->outputs.size());
     states_[n].readers.resize(pipeline_[n].type->outputs.size());
     states_[n].blocker = states_.size();
@@ -60,6 +48,7 @@ RunResult Scheduler::run() {
   result_.threads = threads.number();
   if (!threads.shortage().empty()) progress_.message({}, threads.shortage(), true);
   start_ = wall_seconds();
+  start_cpu_ = process_cpu_seconds();
   peak_memory_ = peak_memory();
   progress_.planned(states_.size());
   if (cache_ != nullptr) note_builds();
@@ -127,10 +116,19 @@ RunResult Scheduler::result() {
     const Value& value = states_[output.from.node].values[output.from.output];
     if (value.data) result_.outputs[output.name] = value;
   }
-  for (const auto& node : result_.nodes) {
-    if (node.status == NodeStatus::failed) result_.failures.push_back({node.node, node.type, node.message, node.help});
-    result_.cancelled = result_.cancelled || node.status == NodeStatus::cancelled;
+  sum_up(result_);
+  if (cache_ != nullptr) {
+    cache_->finish();
+    Cache::Use use = cache_->use();
+    result_.cache_folder = cache_->places().folder.string();
+    result_.loaded = use.loaded;
+    result_.kept = use.kept;
+    result_.cache_problems = std::move(use.problems);
   }
+  result_.wall = wall_seconds() - start_;
+  result_.cpu = process_cpu_seconds() - start_cpu_;
+  result_.peak_memory = peak_memory();
+  for (const auto& node : result_.nodes) result_.peak_memory = std::max(result_.peak_memory, node.peak_memory);
   return std::move(result_);
 }
 
@@ -200,114 +198,6 @@ void Scheduler::execute(std::size_t n) {
   tell(n);
   if (ok) progress_.described(record);
   settle(n, outputs);
-}
-
-/// call(), with what happens to the process's memory.
-bool Scheduler::call_watched(std::size_t n, Inputs inputs, std::vector<Value>& outputs,
-                             std::optional<std::uint64_t>& growth) {
-  NodeRecord& record = result_.nodes[n];
-  const bool watched = cache_ != nullptr;
-  if (result_.threads == 1 && !watched) reset_peak_memory();
-  const std::size_t watch = watched ? memory_watch_.begin() : 0;
-  take_helper_memory();
-  const bool ok = call(n, inputs, outputs);
-  const std::uint64_t helper_memory = take_helper_memory();
-  inputs.clear();  // the last reference goes in settle
-  if (watched) growth = memory_watch_.end(watch);
-  if (growth) *growth += helper_memory;
-  if (result_.threads == 1)
-    peak_memory_ = peak_memory();
-  else if (record.wall >= peak_reading_interval)
-    peak_memory_ = std::max(memory_watch_.peak_before(), peak_memory());
-  record.peak_memory = peak_memory_ + helper_memory;
-  return ok;
-}
-
-bool Scheduler::call(std::size_t n, const Inputs& inputs, std::vector<Value>& outputs) {
-  const PipelineNode& node = pipeline_[n];
-  NodeRecord& record = result_.nodes[n];
-  const PngStamp& stamp = options_.stamp ? options_.stamp(node) : picture_stamp_;
-  Cache* keeper = states_[n].found.key.fields.empty() ? nullptr : cache_;
-  const auto host =
-      std::make_shared<NodeHost>(record.node, options_.out, node.folder, options_.cancel, stamp, progress_, keeper);
-  Context context(node.seed, host, node.type->random);
-  record.thread = tbb::this_task_arena::current_thread_index();
-  record.start = wall_seconds() - start_;
-  const double cpu = thread_cpu_seconds();
-  bool ok = false;
-  try {
-    // Isolated: a thread that waits in the node's loops must not start another node meanwhile.
-    tbb::this_task_arena::isolate([&] { outputs = node.type->run(inputs, node.params, context); });
-    ok = true;
-  } catch (const Cancelled&) {
-    if (!cancelled()) fail(n, "ended as if cancelled, but nobody cancelled the run", "");
-  } catch (const Error& error) {
-    fail(n, error.what(), error.help());
-  } catch (const std::bad_alloc&) {
-    fail(n, "out of memory", help_for_memory);
-  } catch (const std::exception& error) {
-    fail(n, error.what(), "");
-  } catch (...) {
-    fail(n, "threw something that is not a std::exception", "");
-  }
-  record.wall = wall_seconds() - start_ - record.start;
-  record.cpu = thread_cpu_seconds() - cpu;
-  host->finish(record);
-  states_[n].kept = host->kept();
-  for (std::size_t i = 0; ok && i < outputs.size(); ++i) {
-    ok = outputs[i].data != nullptr;
-    if (!ok)
-      fail(n, "gave no value for its output '" + node.type->outputs[i].name + "'", "this is a fault of the node type");
-  }
-  return ok;
-}
-
-void Scheduler::fail(std::size_t n, std::string message, std::string help) {
-  NodeRecord& record = result_.nodes[n];
-  record.status = NodeStatus::failed;
-  record.message = std::move(message);
-  record.help = std::move(help);
-}
-
-/// False: there was no memory for it, the node has failed.
-bool Scheduler::note_facts(std::size_t n, const std::vector<Value>& outputs) {
-  NodeRecord& record = result_.nodes[n];
-  record.facts.assign(outputs.size(), {});
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    if (outputs[i].facts == nullptr) continue;
-    const std::string& port = pipeline_[n].type->outputs[i].name;
-    try {
-      record.facts[i] = outputs[i].facts(outputs[i].data.get());
-    } catch (const std::bad_alloc&) {
-      fail(n, "out of memory", help_for_memory);
-      return false;
-    } catch (const std::exception& error) {
-      record.warnings.push_back("output '" + port + "' could not be summed up: " + error.what());
-    } catch (...) {
-      record.warnings.push_back("output '" + port + "' could not be summed up");
-    }
-  }
-  return true;
-}
-
-void Scheduler::describe(std::size_t n, const std::vector<Value>& outputs) {
-  NodeRecord& record = result_.nodes[n];
-  record.outputs.clear();
-  record.hash_start = wall_seconds() - start_;
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    const PortInfo& port = pipeline_[n].type->outputs[i];
-    OutputRecord output{port.name, port.type, 0, {}};
-    try {
-      output.bytes = outputs[i].bytes(outputs[i].data.get());
-      if (options_.hashes || cache_ != nullptr) output.hash = outputs[i].hash(outputs[i].data.get());
-    } catch (const std::exception& error) {
-      record.warnings.push_back("output '" + port.name + "' could not be hashed: " + error.what());
-    } catch (...) {
-      record.warnings.push_back("output '" + port.name + "' could not be hashed");
-    }
-    record.outputs.push_back(std::move(output));
-  }
-  record.hash_wall = wall_seconds() - start_ - record.hash_start;
 }
 
 Scheduler::Inputs Scheduler::values_for(std::size_t n) const {

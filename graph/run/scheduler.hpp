@@ -29,7 +29,6 @@ namespace atrium {
 class Scheduler {
  public:
   Scheduler(const Pipeline& pipeline, const RunOptions& options, ProgressSink& progress);
-  /// Everything of the result but what the run as a whole took.
   RunResult run();
 
  private:
@@ -52,14 +51,14 @@ class Scheduler {
     bool scheduled = false;
     std::size_t waits = 0;  ///< edges from scheduled nodes that are not done yet
     // With a cache:
-    std::vector<std::string> hashes;      ///< per output, when it is settled
-    CacheLookup found;                    ///< when it is executed
-    bool unloadable = false;              ///< a value that was said to be kept could not be loaded
-    bool unreplayable = false;            ///< a file that its record names is not kept
-    bool drifted = false;                 ///< run again for its value, it gave another one
-    bool has_new_values = false;          ///< that was in this round
-    double cost = 0;                      ///< seconds to have its values again; 0: they are kept
-    std::vector<CacheRecord::File> kept;  ///< the files that it wrote
+    std::vector<std::string> hashes;  ///< per output, when it is settled
+    CacheLookup found;                ///< when it is executed
+    bool unloadable = false;          ///< a value that was said to be kept could not be loaded
+    bool unreplayable = false;        ///< a file that its record names is not kept
+    bool drifted = false;             ///< run again for its value, it gave another one
+    bool has_new_values = false;      ///< that was in this round
+    double cost = 0;                  ///< seconds to have its values again; 0: they are kept
+    std::vector<Artefact> kept;       ///< the files that it wrote
   };
 
   bool cancelled() const;
@@ -108,9 +107,9 @@ class Scheduler {
   ProgressSink& progress_;
   Cache* cache_;
   std::vector<std::size_t> order_;
-  std::vector<PlannedNode> plan_;  ///< of this round; not written while it is executed
+  std::vector<PlannedNode> plan_;  ///< of this round; while it is executed each node takes what was found of it
   PngStamp picture_stamp_;
-  double start_ = 0;
+  double start_ = 0, start_cpu_ = 0;
   std::atomic<std::uint64_t> peak_memory_ = 0;
   std::function<void(std::size_t)> spawn_;  ///< lets so many threads of the run call step()
 

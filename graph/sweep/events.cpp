@@ -7,14 +7,22 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/json_fields.hpp"
 #include "graph/api/json_text.hpp"
-#include "graph/run/record_json.hpp"
+#include "graph/api/text.hpp"
+#include "graph/run/node_json.hpp"
 
 namespace atrium {
 namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr double worth_saying = 0.01;  // of a node's work
+constexpr std::tuple totals_of_run{json_field("wall", &RunResult::wall),
+                                   json_field("cpu", &RunResult::cpu),
+                                   json_field("peak_memory", &RunResult::peak_memory),
+                                   json_field("loaded", &RunResult::loaded),
+                                   json_field("kept", &RunResult::kept),
+                                   json_field("cache_problems", &RunResult::cache_problems)};
 
 }  // namespace
 
@@ -22,23 +30,10 @@ double epoch_seconds() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-std::string host_name() {
-  std::array<char, 256> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
-}
-
-Json totals_json(const ProcessTotals& totals) {
-  return {{"wall", totals.wall},     {"cpu", totals.cpu},   {"peak_memory", totals.peak_memory},
-          {"loaded", totals.loaded}, {"kept", totals.kept}, {"cache_problems", totals.cache_problems}};
-}
-
-ProcessTotals read_totals(const Json& json) {
-  return {json.at("wall").get<double>(),
-          json.at("cpu").get<double>(),
-          json.at("peak_memory").get<std::uint64_t>(),
-          json.at("loaded").get<std::uint64_t>(),
-          json.at("kept").get<std::uint64_t>(),
-          json.at("cache_problems").get<std::vector<std::string>>()};
+RunResult read_totals(const Json& event) {
+  RunResult totals;
+  read_fields(event, totals, totals_of_run);
+  return totals;
 }
 
 void EventSink::begin() {
@@ -47,7 +42,7 @@ void EventSink::begin() {
 
 void EventSink::end(const RunResult& run) {
   Json event{{"e", "end"}};
-  event.update(totals_json({run.wall, run.cpu, run.peak_memory, run.loaded, run.kept, run.cache_problems}));
+  event.update(fields_json(run, totals_of_run));
   write(event);
 }
 
@@ -63,8 +58,8 @@ void EventSink::progress(const std::string& node, double share) {
   write({{"e", "share"}, {"node", node}, {"share", share}});
 }
 
-void EventSink::finished(const NodeRecord& node) { write({{"e", "finished"}, {"record", record_json(node)}}); }
-void EventSink::described(const NodeRecord& node) { write({{"e", "described"}, {"record", record_json(node)}}); }
+void EventSink::finished(const NodeRecord& node) { write({{"e", "finished"}, {"record", whole_node_json(node)}}); }
+void EventSink::described(const NodeRecord& node) { write({{"e", "described"}, {"record", whole_node_json(node)}}); }
 
 void EventSink::message(const std::string& node, std::string_view text, bool warning) {
   write({{"e", "said"}, {"node", node}, {"text", text}, {"warning", warning}});

@@ -36,15 +36,8 @@ class EventSink final : public ProgressSink {
 
 /// Seconds since 1970.
 double epoch_seconds();
-std::string host_name();
 
-/// What a process as a whole took.
-struct ProcessTotals {
-  double wall = 0, cpu = 0;
-  std::uint64_t peak_memory = 0, loaded = 0, kept = 0;
-  std::vector<std::string> cache_problems;
-};
-nlohmann::ordered_json totals_json(const ProcessTotals& totals);
-ProcessTotals read_totals(const nlohmann::ordered_json& json);
+/// What a process as a whole took, as the event `end` says it. Reading throws nlohmann::json::exception.
+RunResult read_totals(const nlohmann::ordered_json& event);
 
 }  // namespace atrium

@@ -10,13 +10,13 @@ namespace atrium {
 namespace {
 
 /// Of the nodes that are wanted: whether the cache has their record.
-std::vector<bool> known_nodes(const Dataflow& graph, const std::vector<std::size_t>& wanted, Cache* cache) {
-  std::vector<bool> known(node_count(graph), false);
-  if (cache == nullptr) return known;
+std::vector<bool> cached_nodes(const Dataflow& graph, const std::vector<std::size_t>& wanted, Cache* cache) {
+  std::vector<bool> cached(node_count(graph), false);
+  if (cache == nullptr) return cached;
   const Dataflow part = part_of(graph, wanted);
   const auto plan = plan_with_cache(part, topological_order(part), *cache);
-  for (std::size_t i = 0; i < wanted.size(); ++i) known[wanted[i]] = plan[i].found.record.has_value();
-  return known;
+  for (std::size_t i = 0; i < wanted.size(); ++i) cached[wanted[i]] = plan[i].found.record.has_value();
+  return cached;
 }
 
 }  // namespace
@@ -27,13 +27,13 @@ SweepForecast forecast(const SweepPlan& plan, const std::vector<bool>& done, Cac
   std::vector<bool> variants = done;
   variants.flip();
   const std::vector<std::size_t> wanted = nodes_of(plan, variants);
-  const std::vector<bool> known = known_nodes(graph, wanted, cache);
+  const std::vector<bool> cached = cached_nodes(graph, wanted, cache);
   std::vector<double> seconds_of(node_count(graph), 0);
   Costs costs(cache == nullptr ? CachePlaces{} : cache->places());
-  result.nodes.resize(node_count(graph), SweepForecast::Node::known);
+  result.nodes.resize(node_count(graph), SweepForecast::Node::cached);
   for (const std::size_t n : wanted) {
-    if (known[n]) {
-      ++result.known;
+    if (cached[n]) {
+      ++result.cached;
       continue;
     }
     ++result.to_run;
@@ -48,7 +48,7 @@ SweepForecast forecast(const SweepPlan& plan, const std::vector<bool>& done, Cac
     auto& variant = result.variants.emplace_back();
     if (done[v]) continue;
     for (const std::size_t n : plan.variants[v].nodes) {
-      ++(result.nodes[n] == SweepForecast::Node::known ? variant.known : variant.to_run);
+      ++(result.nodes[n] == SweepForecast::Node::cached ? variant.cached : variant.to_run);
       variant.unknown += result.nodes[n] == SweepForecast::Node::unknown_cost ? 1 : 0;
       variant.seconds += seconds_of[n];
     }

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-constexpr std::size_t most_known_in_one = 50;              // variants that the cache has whole, in one process
+constexpr std::size_t most_cached_in_one = 50;             // variants that the cache has whole, in one process
 constexpr std::uint64_t memory_of_a_process = 50'000'000;  // besides what its nodes need
 
 std::vector<std::size_t> not_done(const std::vector<bool>& wanted) {
@@ -52,26 +52,20 @@ IsolatedRun::IsolatedRun(const SweepPlan& plan, std::vector<bool> wanted, Isolat
       wanted_(std::move(wanted)),
       options_(std::move(options)),
       joined_(joined),
-      forecast_(forecast(plan, inverted(wanted_), options_.cache)),
+      forecast_(atrium::forecast(plan, inverted(wanted_), options_.cache)),
       costs_(options_.cache == nullptr ? CachePlaces{} : options_.cache->places()),
       results_(plan.variants.size()) {}
 
-std::vector<bool> IsolatedRun::known() const {
-  std::vector<bool> known;
-  for (const auto node : forecast_.nodes)
-    known.push_back(options_.cache != nullptr && node == SweepForecast::Node::known);
-  return known;
-}
-
 PoolOptions IsolatedRun::pool_options() const {
-  return {options_.threads, options_.memory, options_.timeout, options_.cancel, &stop_};
+  return {options_.threads, options_.memory, options_.isolation->timeout, options_.cancel, &stop_};
 }
 
 std::vector<std::string> IsolatedRun::command(const std::vector<std::string>& names, int threads) const {
-  std::vector<std::string> command{options_.program, "sweep", "work", options_.out.string()};
+  std::vector<std::string> command{options_.isolation->program, "sweep", "work", options_.out.string()};
   command.insert(command.end(), names.begin(), names.end());
   command.insert(command.end(), {"--here", "--build", options_.build, "-j", std::to_string(threads)});
-  command.insert(command.end(), options_.arguments.begin(), options_.arguments.end());
+  const auto& more = options_.isolation->arguments;
+  command.insert(command.end(), more.begin(), more.end());
   return command;
 }
 
@@ -86,7 +80,7 @@ void IsolatedRun::hear(const std::string& process, std::size_t lane, const Json&
 std::optional<std::uint64_t> IsolatedRun::memory_of(const std::vector<std::size_t>& nodes) {
   std::uint64_t most = 0;
   for (const std::size_t n : nodes) {
-    if (forecast_.nodes[n] == SweepForecast::Node::known) continue;
+    if (forecast_.nodes[n] == SweepForecast::Node::cached) continue;
     const auto cost = costs_.of(plan_.merged[n].type->type, address_in_variant(plan_.merged[n]));
     if (!cost || !cost->memory) return learned_ > 0 ? std::optional(learned_) : std::nullopt;
     most = std::max(most, *cost->memory);
@@ -134,13 +128,13 @@ void IsolatedRun::run_variants() {
       });
   pool.on_tick = options_.on_tick;
   pool_pointer = &pool;
-  std::vector<std::size_t> known;
+  std::vector<std::size_t> cached;
   for (const std::size_t v : not_done(wanted_)) {
     if (options_.cache == nullptr || forecast_.variants[v].to_run > 0) continue;
-    known.push_back(v);
-    if (known.size() == most_known_in_one) add_variants(pool, std::exchange(known, {}));
+    cached.push_back(v);
+    if (cached.size() == most_cached_in_one) add_variants(pool, std::exchange(cached, {}));
   }
-  if (!known.empty()) add_variants(pool, std::move(known));
+  if (!cached.empty()) add_variants(pool, std::move(cached));
   for (const std::size_t v : not_done(wanted_))
     if (options_.cache == nullptr || forecast_.variants[v].to_run > 0) add_variants(pool, {v});
   pool.run();
@@ -190,23 +184,19 @@ void IsolatedRun::settle(std::size_t v, const PoolEnd& end) {
   for (const std::size_t n : variant.nodes) {
     const PipelineNode& node = plan_.merged[n];
     const NodeRecord* told = joined_.record_of(variant.id + "/" + address_in_variant(node));
-    if (told != nullptr) records[n] = *told;
-    records[n].type = node.type->type;
+    records[n] = told != nullptr ? *told : NodeRecord(node);
     if (told == nullptr) mark_skipped(plan_.merged, n, records);
   }
   VariantResult result = result_of(plan_, variant, [&](std::size_t n) -> const NodeRecord& { return records[n]; });
   result.status = VariantStatus::crashed;
   result.message = end.message;
   ++failures_;
-  const fs::path folder = variant_folder(options_.out, variant);
   for (const std::size_t n : variant.nodes)
     for (const auto& file : records[n].artefacts)
       result.artefacts.push_back(
           {fs::path(file.path).lexically_relative(fs::path("variants") / variant.id).generic_string(), file.bytes});
-  write_file(folder / "result.json",
-             result_json(folder, options_.name(variant), plan_, variant, result, options_.build,
-                         state_of_inputs(plan_, variant)),
-             false);
+  write_result(variant_folder(options_.out, variant), options_.name(variant), plan_, variant, result, options_.build,
+               state_of_inputs(plan_, variant));
   results_[v] = std::move(result);
 }
 

@@ -2,27 +2,20 @@
 #include "graph/cache/costs.hpp"
 #include "graph/sweep/forecast.hpp"
 #include "graph/sweep/joined_run.hpp"
+#include "graph/sweep/run.hpp"
 #include "graph/sweep/worker.hpp"
 #include "graph/sweep/worker_pool.hpp"
 
 namespace atrium {
 
-/// How a sweep runs its variants in processes of their own.
-struct IsolateOptions {
-  std::filesystem::path out;           ///< the sweep's folder
-  std::string program;                 ///< Atrium's own
-  std::vector<std::string> arguments;  ///< of every worker: the cache, --no-hashes
+/// How a sweep runs its variants in processes of their own. It has an `isolation`; the cache is asked what is cached,
+/// the workers write into it.
+struct IsolateOptions : SweepOptions {
   std::string build;
-  int threads = 0;
-  std::uint64_t memory = 0;
-  double timeout = 0;  ///< seconds that a variant may take, and each node of what several share; 0: any
-  std::size_t max_failures = ~std::size_t{0};
-  const std::atomic<bool>* cancel = nullptr;
-  Cache* cache = nullptr;  ///< to be asked what is known; the workers write into it
   std::function<VariantName(const SweepVariant&)> name;
   /// Hears all that the workers tell, for who joins it later: process, event.
-  std::function<void(const std::string&, const nlohmann::ordered_json&)> journal;
-  std::function<void()> on_tick;  ///< called now and then
+  std::function<void(const std::string&, const nlohmann::ordered_json&)> journal = {};
+  std::function<void()> on_tick = {};  ///< called now and then
 };
 
 /// In the sweep's folder: what the workers are told, and what they leave.
@@ -42,8 +35,8 @@ class IsolatedRun {
   /// Runs the wanted variants.
   void run_variants();
   std::vector<VariantResult>& results() { return results_; }
-  /// The nodes of the merged graph that the cache had before.
-  std::vector<bool> known() const;
+  /// What the cache had before.
+  const SweepForecast& forecast() const { return forecast_; }
 
  private:
   PoolOptions pool_options() const;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "graph/run/record_json.hpp"
+#include "graph/run/node_json.hpp"
 #include "graph/sweep/merge.hpp"
 #include "graph/sweep/recorder.hpp"
 
@@ -34,23 +34,20 @@ JoinedRun::JoinedRun(const SweepPlan& plan, const std::vector<bool>& wanted, dou
     for (const std::size_t n : plan.variants[v].nodes)
       if (wanted[v]) index_.emplace(plan.variants[v].id + "/" + address_in_variant(plan.merged[n]), place[n]);
   const std::size_t size = node_count(pipeline_);
-  records_.resize(size);
   ranks_.resize(size, 0);
   finished_.resize(size, false);
-  for (std::size_t n = 0; n < size; ++n) {
-    records_[n].node = pipeline_[n].path;
-    records_[n].type = pipeline_[n].type->type;
-  }
+  records_.reserve(size);
+  for (const std::size_t n : all_nodes(pipeline_)) records_.emplace_back(pipeline_[n]);
   progress_.planned(size);
 }
 
 void JoinedRun::hear(const std::string& process, std::size_t lane, const Json& event) {
   const std::string kind = event.value("e", "");
   if (kind == "begin") shifts_[process] = event.at("time").get<double>() - started_;
-  if (kind == "finished" || kind == "described") take(read_record_json(event.at("record")), shifts_[process], lane);
+  if (kind == "finished" || kind == "described") take(read_node(event.at("record")), shifts_[process], lane);
   if (kind == "crashed") crashed(event.at("node").get<std::string>(), event.at("message").get<std::string>());
   if (kind == "end") {
-    const ProcessTotals totals = read_totals(event);
+    const RunResult totals = read_totals(event);
     totals_.cpu += totals.cpu;
     totals_.peak_memory = std::max(totals_.peak_memory, totals.peak_memory);
     totals_.loaded += totals.loaded;
@@ -96,9 +93,8 @@ void JoinedRun::finish(std::size_t n, const NodeRecord& record) {
 void JoinedRun::crashed(const std::string& node, const std::string& message) {
   const auto found = index_.find(node);
   if (found == index_.end()) return;
-  NodeRecord record;
+  NodeRecord record(pipeline_[found->second]);
   record.node = node;
-  record.type = pipeline_[found->second].type->type;
   record.status = NodeStatus::failed;
   record.message = message;
   take(std::move(record), 0, 0);
@@ -119,18 +115,11 @@ void mark_skipped(const Pipeline& pipeline, std::size_t node, std::vector<NodeRe
 }
 
 RunResult JoinedRun::run() const {
-  RunResult run;
+  RunResult run = totals_;
   run.nodes = records_;
   for (std::size_t n = 0; n < run.nodes.size(); ++n)
     if (ranks_[n] == 0) mark_skipped(pipeline_, n, run.nodes);
-  for (const auto& node : run.nodes) {
-    if (node.status == NodeStatus::failed) run.failures.push_back({node.node, node.type, node.message, node.help});
-    run.cancelled = run.cancelled || node.status == NodeStatus::cancelled;
-  }
-  run.cpu = totals_.cpu;
-  run.peak_memory = totals_.peak_memory;
-  run.loaded = totals_.loaded;
-  run.kept = totals_.kept;
+  sum_up(run);
   run.cache_problems.assign(problems_.begin(), problems_.end());
   return run;
 }

@@ -39,7 +39,7 @@ class JoinedRun {
   std::vector<bool> finished_;  ///< the progress was told so
   std::unordered_map<std::string, NodeRecord> last_;
   std::map<std::string, double> shifts_;  ///< by process: its start after the sweep's
-  ProcessTotals totals_;
+  RunResult totals_;
   std::set<std::string> problems_;
 };
 

@@ -31,6 +31,25 @@ bool matches(const std::vector<SweepSetting>& conditions, const SweepFile& sweep
   });
 }
 
+/// Axes whose choices have names of their own.
+bool is_named(const SweepAxis& axis) {
+  return axis.name == "scene" || axis.name == "variant" || axis.name == "ablation";
+}
+
+/// What the variant chose of the axes that have several choices; `called(name)` stands before a value.
+template <class Called>
+std::string joined_choices(const SweepFile& sweep, const SweepVariant& variant, Called called) {
+  std::string text;
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
+    const SweepAxis& axis = sweep.axes[a];
+    if (axis.choices.size() < 2) continue;
+    if (!text.empty()) text += ", ";
+    if (!is_named(axis)) text += called(axis.name);
+    text += axis.choices[variant.choices[a]].label;
+  }
+  return text.empty() ? "the only variant" : text;
+}
+
 class Planner {
  public:
   Planner(const SweepFile& sweep, const std::vector<Override>& given, Registry& registry)
@@ -75,7 +94,7 @@ class Planner {
   /// What the table names by its value must be what ran.
   void check_settings() {
     for (const auto& axis : sweep_.axes) {
-      if (axis.name == "scene" || axis.name == "variant" || axis.name == "ablation") continue;
+      if (is_named(axis)) continue;
       for (const auto& override_ : given_) {
         const auto sets = [&](const SweepSetting& s) { return override_.text.starts_with(s.target + "="); };
         const auto& choices = axis.choices;
@@ -204,15 +223,8 @@ SweepLoad plan_sweep(const SweepFile& sweep, const std::vector<Override>& settin
 }
 
 std::string label_of(const SweepFile& sweep, const SweepVariant& variant) {
-  std::string label;
-  for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
-    const SweepAxis& axis = sweep.axes[a];
-    if (axis.choices.size() < 2) continue;
-    const std::string& choice = axis.choices[variant.choices[a]].label;
-    const bool named = axis.name == "scene" || axis.name == "variant" || axis.name == "ablation";
-    label += (label.empty() ? "" : ", ") + (named ? choice : axis.name + " = " + choice);
-  }
-  return label.empty() ? "the only variant" : label;
+  const auto full = [](const std::string& name) { return name + " = "; };
+  return joined_choices(sweep, variant, full);
 }
 
 std::string caption_of(const SweepFile& sweep, const SweepVariant& variant) {
@@ -220,18 +232,8 @@ std::string caption_of(const SweepFile& sweep, const SweepVariant& variant) {
   std::map<std::string, int> uses;
   for (const auto& axis : sweep.axes)
     if (axis.choices.size() > 1) ++uses[last(axis.name)];
-  std::string caption;
-  for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
-    const SweepAxis& axis = sweep.axes[a];
-    if (axis.choices.size() < 2) continue;
-    const std::string& choice = axis.choices[variant.choices[a]].label;
-    const bool named = axis.name == "scene" || axis.name == "variant" || axis.name == "ablation";
-    const std::string name = uses[last(axis.name)] > 1 ? axis.name : last(axis.name);
-    if (!caption.empty()) caption += ", ";
-    if (!named) caption.append(name).append(" ");
-    caption += choice;
-  }
-  return caption.empty() ? "the only variant" : caption;
+  const auto brief = [&](const std::string& name) { return (uses[last(name)] > 1 ? name : last(name)) + " "; };
+  return joined_choices(sweep, variant, brief);
 }
 
 VariantName name_of(const SweepFile& sweep, const SweepVariant& variant) {

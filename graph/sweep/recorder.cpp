@@ -14,9 +14,13 @@ namespace fs = std::filesystem;
 
 void add_node_result(const PipelineNode& node, const NodeRecord& record, VariantResult& result) {
   const std::string path = address_in_variant(node);
-  result.nodes.push_back({path, record.type, record.status, record.computing_wall(), record.computing_cpu(),
-                          record.computing_memory(), record.outputs, record.is_hit() && !record.cache.again,
-                          record.cache});
+  NodeRecord& shown = result.nodes.emplace_back(record);
+  shown.node = path;
+  shown.wall = record.computing_wall();
+  shown.cpu = record.computing_cpu();
+  shown.peak_memory = record.computing_memory();
+  shown.because.erase(0, shown.because.find('/') + 1);
+  shown.artefacts.clear();  // the variant's record lists them
   if (record.status == NodeStatus::failed && result.message.empty()) result.message = path + ": " + record.message;
   if (record.status == NodeStatus::failed) result.status = VariantStatus::failed;
   if (record.status == NodeStatus::skipped && result.status == VariantStatus::ok) {
@@ -62,8 +66,8 @@ VariantResult result_of(const SweepPlan& plan, const SweepVariant& variant,
   for (const std::size_t n : variant.nodes) add_node_result(plan.merged[n], record(n), result);
   for (const auto& output : variant.outputs) {
     const NodeRecord& from = record(output.from.node);
-    if (from.status == NodeStatus::ok && !from.facts[output.from.output].empty())
-      result.outputs.push_back({output.name, from.facts[output.from.output]});
+    if (from.status == NodeStatus::ok && !from.outputs[output.from.output].facts.empty())
+      result.outputs.push_back({output.name, from.outputs[output.from.output].facts});
   }
   return result;
 }
@@ -138,10 +142,8 @@ void Recorder::record_variant(std::size_t v) {
   if (result.status == VariantStatus::cancelled) return;  // it is done anew next time
   if (state_of_inputs(plan_, variant) != inputs_[v])
     progress_.message(variant.id, "a file that it reads was changed meanwhile: it is run again next time", true);
-  const fs::path folder = variant_folder(options_.out, variant);
-  write_file(folder / "result.json",
-             result_json(folder, options_.name(variant), plan_, variant, result, options_.build, inputs_[v]),
-             false);  // if it is cut off, the variant is not done
+  write_result(variant_folder(options_.out, variant), options_.name(variant), plan_, variant, result, options_.build,
+               inputs_[v]);
 }
 
 /// A file that another variant's node wrote for both is linked, so that each variant's folder is complete.

@@ -24,22 +24,13 @@ std::string_view name_of(VariantStatus status);
 
 /// What became of one variant.
 struct VariantResult {
-  struct Node {
-    std::string path, type;
-    NodeStatus status = NodeStatus::cancelled;
-    double wall = 0, cpu = 0;
-    std::uint64_t peak_memory = 0;
-    std::vector<OutputRecord> outputs;
-    bool known = false;  ///< to the cache: times and memory are those of when it was computed
-    CacheUse cache;      ///< of a variant that was run just now
-  };
   struct Output {
     std::string name;
     std::vector<Fact> facts;
   };
   VariantStatus status = VariantStatus::cancelled;
   std::string message;  ///< of the node that failed first, with its path; of one that crashed: how, and in which node
-  std::vector<Node> nodes;
+  std::vector<NodeRecord> nodes;  ///< by their addresses in the variant, with what it took to compute them
   std::vector<Output> outputs;
   std::vector<Artefact> artefacts;  ///< relative to the variant's folder
   bool reused = false;              ///< it was there already, from an earlier run of the sweep
@@ -48,9 +39,9 @@ struct VariantResult {
 /// The file `result.json` of a variant: what became of it, what it depended on (Atrium's build, the input files), and
 /// the files in its folder with the hashes of their contents. `inputs`: state_of_inputs() when the variant was begun;
 /// if it is another by now, nobody knows what the variant was made from, and it is run again next time.
-std::string result_json(const std::filesystem::path& folder, const VariantName& name, const SweepPlan& plan,
-                        const SweepVariant& variant, const VariantResult& result, const std::string& build,
-                        const std::string& inputs);
+void write_result(const std::filesystem::path& folder, const VariantName& name, const SweepPlan& plan,
+                  const SweepVariant& variant, const VariantResult& result, const std::string& build,
+                  const std::string& inputs);
 
 /// What tells whether a file that the variant reads was changed (FileHashes::fingerprint), for all of them.
 std::string state_of_inputs(const SweepPlan& plan, const SweepVariant& variant);

@@ -1,14 +1,14 @@
 #include "graph/sweep/run.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "graph/api/clocks.hpp"
+#include "graph/api/json_text.hpp"
+#include "graph/api/text.hpp"
 #include "graph/run/manifest.hpp"
 #include "graph/run/run_folder.hpp"
 #include "graph/run/scheduler.hpp"
@@ -26,21 +26,10 @@ namespace fs = std::filesystem;
 
 /// All variants in this process, as one graph.
 RunResult run_together(const Pipeline& pipeline, const SweepOptions& options, Recorder& recorder) {
-  RunOptions run_options;
-  run_options.out = options.out;
-  run_options.threads = options.threads;
-  run_options.hashes = options.hashes;
-  run_options.cancel = options.cancel;
+  RunOptions run_options = options;
   run_options.stop = recorder.stop();
-  run_options.cache = options.cache;
   run_options.stamp = [&](const PipelineNode& node) -> const PngStamp& { return recorder.stamp_of_variant(node); };
-  const double cpu = process_cpu_seconds();
-  RunResult run = Scheduler(pipeline, run_options, recorder).run();
-  finish_cache(options.cache, run);
-  run.cpu = process_cpu_seconds() - cpu;
-  run.peak_memory = peak_memory();
-  for (const auto& node : run.nodes) run.peak_memory = std::max(run.peak_memory, node.peak_memory);
-  return run;
+  return Scheduler(pipeline, run_options, recorder).run();
 }
 
 /// Each variant in a process of its own.
@@ -56,27 +45,15 @@ RunResult run_isolated(const SweepPlan& plan, const std::vector<bool>& wanted, c
       write_note(variant_folder(options.out, plan.variants[v]),
                  note_of(plan, plan.variants[v], name(plan.variants[v])));
   JoinedRun joined(plan, wanted, epoch_seconds(), progress);
-  IsolateOptions isolate{options.out,
-                         options.isolation->program,
-                         options.isolation->arguments,
-                         build,
-                         options.threads,
-                         options.memory,
-                         options.isolation->timeout,
-                         options.max_failures,
-                         options.cancel,
-                         options.cache,
-                         name,
-                         {},
-                         {}};
+  IsolateOptions isolate{options, build, name};
   // Without a cache what variants share goes through one that is gone afterwards.
   if (options.cache == nullptr) {
-    const auto use = {std::string("--cache"), (work / "cache").string()};
-    isolate.arguments.insert(isolate.arguments.end(), use.begin(), use.end());
+    auto& arguments = isolate.isolation->arguments;
+    arguments.insert(arguments.end(), {"--cache", (work / "cache").string()});
   }
   IsolatedRun isolated(plan, wanted, isolate, joined);
   std::vector<std::pair<std::string, WorkerTask>> shared;
-  for (auto& task : shared_beginnings(plan, wanted, isolated.known())) {
+  for (auto& task : shared_beginnings(plan, wanted, isolated.forecast().cached_nodes())) {
     shared.emplace_back(fmt::format("shared-{}", shared.size() + 1), std::move(task));
     write_file(work / shared.back().first, task_text(shared.back().second), false);
   }
@@ -91,18 +68,13 @@ RunResult run_isolated(const SweepPlan& plan, const std::vector<bool>& wanted, c
   return run;
 }
 
-}  // namespace
-
-namespace {
-
-/// A label as the name of a file.
+/// A label as the name of a file, which systems limit to 255 bytes.
 std::string file_name_of(const std::string& label) {
-  constexpr std::size_t longest = 120;
-  std::string name;
-  for (const char c : label) name += c == '/' || static_cast<unsigned char>(c) < 0x20 ? '_' : c;
-  while (name.size() > longest ||
-         (!name.empty() && (static_cast<unsigned char>(name.back()) & 0xC0U) == 0x80U && name.size() > longest - 4))
-    name.pop_back();
+  constexpr std::size_t longest = 120, most_bytes = 240;
+  std::string name = shortened(label, longest);
+  while (name.size() > most_bytes) name = shortened(name, count_characters(name) - 1);
+  for (char& c : name)
+    if (c == '/' || static_cast<unsigned char>(c) < 0x20) c = '_';
   return name.starts_with('.') ? "_" + name : name;
 }
 
@@ -139,7 +111,7 @@ void write_run(const fs::path& out, const Pipeline& pipeline, const RunResult& r
   result.peak_memory = run.peak_memory;
   result.cancelled = run.cancelled;
   result.nodes = run.nodes.size();
-  for (const auto& node : run.nodes) result.known += node.is_hit() ? 1 : 0;
+  for (const auto& node : run.nodes) result.cached += node.is_hit() ? 1 : 0;
   result.cache_problems = run.cache_problems;
   write_file(out / "trace.json", trace_json(run));
   write_file(out / "manifest.json", manifest_json(pipeline, run, started));
@@ -150,7 +122,7 @@ SweepResult run_sweep(const SweepFile& sweep, const SweepPlan& plan, const std::
   SweepOptions options = given;
   options.out = fs::absolute(given.out).lexically_normal();
   const SweepFolder folder(options.out, sweep);
-  const std::string started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  const std::string started = utc_text();
   const auto name = [&](const SweepVariant& variant) { return name_of(sweep, variant); };
   SweepResult result;
   std::vector<bool> wanted;

@@ -3,19 +3,15 @@
 
 namespace atrium {
 
-struct SweepOptions {
-  std::filesystem::path out;  ///< the sweep's folder
-  int threads = 0;
-  bool hashes = true;
+/// `out` is the sweep's folder; `stamp` and `stop` are not looked at.
+struct SweepOptions : RunOptions {
   std::size_t max_failures = ~std::size_t{0};  ///< end the sweep when so many variants have failed
-  const std::atomic<bool>* cancel = nullptr;
-  Cache* cache = nullptr;
-  std::uint64_t memory = 0;  ///< of all processes together, in isolation; bytes; 0: any
+  std::uint64_t memory = 0;                    ///< of all processes together, in isolation; bytes; 0: any
   /// Each variant in a process of its own: the program, and what every worker is told of the cache.
   struct Isolation {
     std::string program;
     std::vector<std::string> arguments;
-    double timeout = 0;  ///< seconds that a variant may take; 0: any
+    double timeout = 0;  ///< seconds that a variant may take, and each node of what several share; 0: any
   };
   std::optional<Isolation> isolation;
 };
@@ -25,7 +21,7 @@ struct SweepResult {
   bool cancelled = false;
   double wall = 0;
   std::uint64_t peak_memory = 0;
-  std::size_t nodes = 0, known = 0;  ///< nodes of the variants that were not done; of them those that the cache had
+  std::size_t nodes = 0, cached = 0;  ///< nodes of the variants that were not done; of them those that the cache had
   std::vector<std::string> cache_problems;
 };
 

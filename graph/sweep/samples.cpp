@@ -4,6 +4,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -35,18 +36,11 @@ Distribution read_distribution(const YamlNode& node) {
       "{uniform: [low, high]}, {loguniform: [low, high]}, {integers: [low, high]} or {choice: [a, b, …]}");
   if (!node.is_mapping() || node.entries.size() != 1) throw shape;
   const auto& [name, place, range] = node.entries.front();
+  constexpr std::array<std::string_view, 4> kinds{"uniform", "loguniform", "integers", "choice"};  // as Kind has them
+  const auto kind = std::find(kinds.begin(), kinds.end(), name);
+  if (kind == kinds.end()) throw shape;
   Distribution result;
-  if (name == "uniform") {
-    result.kind = Distribution::Kind::uniform;
-  } else if (name == "loguniform") {
-    result.kind = Distribution::Kind::loguniform;
-  } else if (name == "integers") {
-    result.kind = Distribution::Kind::integers;
-  } else if (name == "choice") {
-    result.kind = Distribution::Kind::choice;
-  } else {
-    throw shape;
-  }
+  result.kind = static_cast<Distribution::Kind>(kind - kinds.begin());
   if (!range.is_sequence() || range.items.empty()) throw shape;
   if (result.kind == Distribution::Kind::choice) {
     for (const auto& item : range.items) {

@@ -7,7 +7,7 @@
 
 namespace atrium {
 std::vector<WorkerTask> shared_beginnings(const SweepPlan& plan, const std::vector<bool>& wanted,
-                                          const std::vector<bool>& known) {
+                                          const std::vector<bool>& cached) {
   const Dataflow& graph = plan.merged;
   std::vector<std::size_t> uses(node_count(graph), 0);
   for (std::size_t v = 0; v < plan.variants.size(); ++v)
@@ -19,7 +19,7 @@ std::vector<WorkerTask> shared_beginnings(const SweepPlan& plan, const std::vect
       components.union_set(boost::source(edge, graph), boost::target(edge, graph));
   std::vector<bool> lacks(node_count(graph), false);
   for (const std::size_t n : all_nodes(graph))
-    if (uses[n] > 1 && !known[n] && graph[n].type->cached) lacks[components.find_set(n)] = true;
+    if (uses[n] > 1 && !cached[n] && graph[n].type->cached) lacks[components.find_set(n)] = true;
   std::map<std::size_t, std::size_t> task_of;  // by component
   std::vector<WorkerTask> tasks;               // in the order of the graph
   for (const std::size_t n : all_nodes(graph)) {

@@ -3,9 +3,9 @@
 
 namespace atrium {
 
-/// What several of the wanted variants need and `known` does not hold (by node of the merged graph), as tasks that do
+/// What several of the wanted variants need and `cached` does not hold (by node of the merged graph), as tasks that do
 /// not need each other.
 std::vector<WorkerTask> shared_beginnings(const SweepPlan& plan, const std::vector<bool>& wanted,
-                                          const std::vector<bool>& known);
+                                          const std::vector<bool>& cached);
 
 }  // namespace atrium

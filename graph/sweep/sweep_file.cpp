@@ -1,16 +1,17 @@
 #include "graph/sweep/sweep_file.hpp"
 
 #include <fmt/format.h>
-#include <glob.h>
 
 #include <algorithm>
 #include <charconv>
 #include <set>
 
 #include "graph/api/suggest.hpp"
+#include "graph/api/text.hpp"
 #include "graph/pipeline/document.hpp"
+#include "graph/pipeline/file_reader.hpp"
+#include "graph/pipeline/files_of.hpp"
 #include "graph/pipeline/find_pipeline.hpp"
-#include "graph/pipeline/utf8.hpp"
 #include "graph/sweep/samples.hpp"
 
 namespace atrium {
@@ -23,34 +24,9 @@ YamlNode scalar_node(std::string text) {
   return node;
 }
 
-/// The files of a folder, or those that fit a pattern (glob(3)), by name. It is relative to `from`.
-std::vector<std::filesystem::path> files_of(const std::filesystem::path& from, const std::string& given) {
-  std::vector<std::filesystem::path> files;
-  std::error_code ignored;
-  if (std::filesystem::is_directory(from / given, ignored)) {
-    for (const auto& entry : std::filesystem::directory_iterator(from / given, ignored))
-      if (entry.is_regular_file(ignored) && !entry.path().filename().string().starts_with('.'))
-        files.push_back(entry.path());
-  } else {
-    std::string pattern;
-    if (!std::filesystem::path(given).is_absolute()) {
-      for (const char c : from.string())
-        pattern += (std::string_view("*?[\\").find(c) != std::string_view::npos ? "\\" : "") + std::string(1, c);
-      pattern += "/";
-    }
-    pattern += given;
-    glob_t found{};
-    if (::glob(pattern.c_str(), 0, nullptr, &found) == 0) files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
-    ::globfree(&found);
-  }
-  for (auto& file : files) file = file.lexically_normal();
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-class SweepReader {
+class SweepReader : FileReader {
  public:
-  SweepReader(SweepFile& sweep, Findings& findings) : sweep_(sweep), findings_(findings) {}
+  SweepReader(SweepFile& sweep, Findings& findings) : FileReader(sweep.source, findings), sweep_(sweep) {}
 
   void read(const YamlNode& root) {
     if (const auto* nodes = root.find("nodes"); nodes != nullptr && root.find("sweep") == nullptr) {
@@ -62,9 +38,9 @@ class SweepReader {
                {"atrium", "sweep", "summary", "set", "scenes", "seeds", "grid", "zip", "list", "ablate", "random",
                 "exclude", "metrics", "pictures"},
                "a sweep file");
-    read_format(root);
+    check_format(root);
     read_base(root);
-    if (const auto* entry = root.find("summary")) sweep_.summary = scalar(*entry);
+    if (const auto* entry = root.find("summary")) sweep_.summary = scalar(*entry).text;
     if (const auto* entry = root.find("set")) sweep_.settings = settings(*entry);
     read_scenes(root.find("scenes"));
     named_choices(root.find("list"), "variant", {});
@@ -80,43 +56,6 @@ class SweepReader {
   }
 
  private:
-  void error(Place place, std::string message, std::string help = {}) {
-    findings_.error({&sweep_.source, place}, std::move(message), std::move(help));
-  }
-
-  void check_keys(const YamlNode& mapping, const std::vector<std::string>& allowed, const std::string& what) {
-    for (const auto& entry : mapping.entries) {
-      if (std::find(allowed.begin(), allowed.end(), entry.key) != allowed.end()) continue;
-      const std::string hint = findings_.suggest(entry.key, allowed);
-      error(entry.place, fmt::format("unknown key '{}' in {}", entry.key, what),
-            hint.empty() ? fmt::format("keys of {}: {}", what, join_words(allowed, 20)) : hint);
-    }
-  }
-
-  std::string scalar(const YamlNode::Entry& entry) {
-    if (entry.value.is_scalar()) return entry.value.text;
-    error(entry.value.place, entry.value.is_null() ? fmt::format("'{}' has no value", entry.key)
-                                                   : fmt::format("'{}' must be a single value", entry.key));
-    return {};
-  }
-
-  const std::vector<YamlNode::Entry>& mapping(const YamlNode::Entry* entry, std::string_view help) {
-    static const std::vector<YamlNode::Entry> nothing;
-    if (entry == nullptr) return nothing;
-    if (entry->value.is_mapping() && !entry->value.entries.empty()) return entry->value.entries;
-    error(entry->value.place, fmt::format("'{}' must be a mapping that is not empty", entry->key), std::string(help));
-    return nothing;
-  }
-
-  std::optional<std::int64_t> whole(const YamlNode::Entry& entry, std::int64_t low, std::int64_t high) {
-    const std::string text = scalar(entry);
-    std::int64_t value = 0;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (problem == std::errc{} && end == text.data() + text.size() && value >= low && value <= high) return value;
-    error(entry.value.place, fmt::format("'{}' is no whole number from {} to {}", text, low, high));
-    return std::nullopt;
-  }
-
   std::optional<std::string> value_text(const YamlNode& node, std::string_view target) {
     if (node.is_scalar()) return node.text;
     const auto is_scalar = [](const YamlNode& item) { return item.is_scalar(); };
@@ -137,15 +76,6 @@ class SweepReader {
     return result;
   }
 
-  void read_format(const YamlNode& root) {
-    const auto* entry = root.find("atrium");
-    if (entry == nullptr)
-      error({}, "the format version is missing", "begin the file with `atrium: 1`");
-    else if (!entry->value.is_scalar() || entry->value.text != "1")
-      error(entry->value.place, fmt::format("unknown format version '{}'", entry->value.text),
-            "this program reads `atrium: 1`");
-  }
-
   void read_base(const YamlNode& root) {
     const auto* entry = root.find("sweep");
     if (entry == nullptr) {
@@ -153,7 +83,7 @@ class SweepReader {
       return;
     }
     sweep_.base_place = entry->value.place;
-    const std::string text = scalar(*entry);
+    const std::string text = scalar(*entry).text;
     if (text.empty()) return;
     const NamedPipeline found = find_pipeline(sweep_.source.folder, text);
     sweep_.base = found.path;
@@ -318,7 +248,7 @@ class SweepReader {
       if (entry.value.is_mapping())
         read_metric(entry.value, metric);
       else
-        set_fact(metric, scalar(entry));
+        set_fact(metric, scalar(entry).text);
       sweep_.metrics.push_back(std::move(metric));
     }
   }
@@ -340,14 +270,14 @@ class SweepReader {
       return;
     }
     if (of != nullptr) {
-      set_fact(metric, scalar(*of));
+      set_fact(metric, scalar(*of).text);
     } else {
       metric.kind = seconds != nullptr ? SweepMetric::Kind::time : SweepMetric::Kind::memory;
       const auto* cost = seconds != nullptr ? seconds : memory;
-      if (!cost->value.is_null()) metric.node = scalar(*cost);
+      if (!cost->value.is_null()) metric.node = scalar(*cost).text;
       if (metric.node == "all") metric.node.clear();
     }
-    if (const auto* unit = node.find("unit")) metric.unit = scalar(*unit);
+    if (const auto* unit = node.find("unit")) metric.unit = scalar(*unit).text;
     if (const auto* digits = node.find("digits"))
       if (const auto value = whole(*digits, 0, 12)) metric.digits = static_cast<int>(*value);
   }
@@ -360,11 +290,11 @@ class SweepReader {
         error(entry.place, fmt::format("'{}' cannot be the file of a sheet", entry.key),
               "a name that ends with .png; it is written into the sweep's folder");
       if (!entry.value.is_mapping()) {
-        sheet.picture = scalar(entry);
+        sheet.picture = scalar(entry).text;
       } else {
         check_keys(entry.value, {"picture", "columns", "cell_width"}, "a sheet");
         if (const auto* picture = entry.value.find("picture"))
-          sheet.picture = scalar(*picture);
+          sheet.picture = scalar(*picture).text;
         else
           error(entry.place, fmt::format("the sheet '{}' names no picture", entry.key), "{picture: FILE.png}");
         if (const auto* columns = entry.value.find("columns")) sheet.columns = whole(*columns, 1, 20).value_or(1);
@@ -399,7 +329,6 @@ class SweepReader {
   }
 
   SweepFile& sweep_;
-  Findings& findings_;
 };
 
 }  // namespace

@@ -43,32 +43,17 @@ std::string sweep_json(const SweepFile& sweep) {
 }  // namespace
 
 SweepFolder::SweepFolder(const fs::path& folder, const SweepFile& sweep) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw FolderError("cannot make the folder " + folder.string() + ": " + error.message());
+  make_out_folder(folder);
   if (!fs::exists(folder / sweep_mark) && !holds_only_unfinished(folder))
     throw FolderError(folder.string() + " is not empty and is not the folder of a sweep",
                       "choose another folder with --out, or empty it");
-  lock(folder, FolderLock::Kind::alone);
+  lock_out_folder(folder, FolderLock::Kind::alone, "sweep", lock_);
   // Nobody else writes here: what is not finished is of a process that was killed.
-  std::vector<fs::path> unfinished;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, error))
-    if (!name_of_unfinished(entry.path().filename().string()).empty()) unfinished.push_back(entry.path());
-  for (const auto& file : unfinished) fs::remove(file, error);
+  std::error_code ignored;
+  for (const auto& file : unfinished_files(folder)) fs::remove(file, ignored);
   write_file(folder / sweep_mark, sweep_json(sweep));
 }
 
-SweepFolder::SweepFolder(const fs::path& folder) { lock(folder, FolderLock::Kind::shared); }
-
-void SweepFolder::lock(const fs::path& folder, FolderLock::Kind kind) {
-  try {
-    lock_.emplace(folder, kind);
-  } catch (const Error& problem) {
-    throw FolderError(problem.what(), problem.help());
-  }
-  if (!lock_->held())
-    throw FolderError(fmt::format("another sweep is writing into {} ({})", folder.string(), lock_->holder()),
-                      "wait for it, or choose another folder with --out");
-}
+SweepFolder::SweepFolder(const fs::path& folder) { lock_out_folder(folder, FolderLock::Kind::shared, "sweep", lock_); }
 
 }  // namespace atrium

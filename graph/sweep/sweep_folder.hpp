@@ -18,8 +18,6 @@ class SweepFolder {
   SweepFolder& operator=(const SweepFolder&) = delete;
 
  private:
-  void lock(const std::filesystem::path& folder, FolderLock::Kind kind);
-
   std::optional<FolderLock> lock_;
 };
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/fact_json.hpp"
 #include "graph/api/suggest.hpp"
 #include "graph/sweep/result.hpp"
 
@@ -49,14 +50,7 @@ Shown fact_of(const SweepMetric& metric, const VariantResult& result) {
     for (const auto& fact : output.facts) {
       if (fact.name != metric.fact) continue;
       if (const auto* text = std::get_if<std::string>(&fact.value)) return {{std::nullopt, *text}, "", true};
-      double number = 0;
-      std::visit(
-          [&](const auto& value) {
-            if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>)
-              number = static_cast<double>(value);
-          },
-          fact.value);
-      const auto [shown, unit] = converted(number, fact.unit, metric.unit);
+      const auto [shown, unit] = converted(number_of(fact).value_or(0), fact.unit, metric.unit);
       return {{shown, {}}, unit, true};
     }
   }
@@ -67,7 +61,7 @@ Shown cost_of(const SweepMetric& metric, const VariantResult& result) {
   double seconds = 0;
   double memory = 0;
   for (const auto& node : result.nodes) {
-    if (!metric.node.empty() && node.path != metric.node && !node.path.starts_with(metric.node + "/")) continue;
+    if (!metric.node.empty() && node.node != metric.node && !node.node.starts_with(metric.node + "/")) continue;
     seconds += node.wall;
     memory = std::max(memory, static_cast<double>(node.peak_memory));
   }

@@ -162,14 +162,9 @@ void run_worker(const WorkerTask& task, const WorkerOptions& options, Registry& 
     const PngStamp* stamp = stamps.of(node);
     return stamp != nullptr ? *stamp : recorder.stamp_of_variant(node);
   };
-  const double start = wall_seconds();
   events.begin();
   RunResult run = Scheduler(pipeline, run_options, entire ? static_cast<ProgressSink&>(recorder) : events).run();
-  finish_cache(run_options.cache, run);
-  run.wall = wall_seconds() - start;
-  run.cpu = process_cpu_seconds();
-  run.peak_memory = peak_memory();
-  for (const auto& node : run.nodes) run.peak_memory = std::max(run.peak_memory, node.peak_memory);
+  run.cpu = process_cpu_seconds();  // with what came before
   events.end(run);
 }
 

@@ -81,58 +81,57 @@ float weight(float distance, float reach) {
   return w4 * w4;
 }
 
-/// A binary heap with the heaviest sample on top (the lowest index of equals) that can make samples lighter.
+/// A binary heap with the heaviest sample on top (the lowest index of equals) that can make samples lighter. Samples
+/// stand where their weights of some time ago belong: what has become lighter sinks when it comes to the top.
 class Heap {
  public:
-  explicit Heap(std::vector<float> weights) : weights_(std::move(weights)), heap_(weights_.size()), at_(heap_.size()) {
-    for (std::uint32_t i = 0; i < heap_.size(); ++i) heap_[i] = at_[i] = i;
-    for (std::size_t i = heap_.size() / 2; i-- > 0;) sink(i);
+  explicit Heap(std::vector<float> weights) : weights_(std::move(weights)), heap_(weights_.size()) {
+    for (std::uint32_t i = 0; i < heap_.size(); ++i) heap_[i] = {weights_[i], i};
+    std::make_heap(heap_.begin(), heap_.end(), lighter);
   }
   std::size_t size() const { return heap_.size(); }
   std::uint32_t pop() {
-    const std::uint32_t top = heap_.front();
-    at_[top] = gone;
-    const std::uint32_t last = heap_.back();
-    heap_.pop_back();
-    if (!heap_.empty() && last != top) {
-      heap_[0] = last;
-      at_[last] = 0;
-      sink(0);
+    while (heap_.front().weight != weights_[heap_.front().sample]) {
+      heap_.front().weight = weights_[heap_.front().sample];
+      sink();
     }
+    const std::uint32_t top = heap_.front().sample;
+    heap_.front() = heap_.back();
+    heap_.pop_back();
+    if (!heap_.empty()) sink();
     return top;
   }
-  void lighten(std::uint32_t sample, float by) {
-    if (at_[sample] == gone) return;
-    weights_[sample] -= by;
-    sink(at_[sample]);
-  }
+  void lighten(std::uint32_t sample, float by) { weights_[sample] -= by; }
   std::vector<std::uint32_t> rest() const {
-    std::vector<std::uint32_t> result = heap_;
+    std::vector<std::uint32_t> result;
+    result.reserve(heap_.size());
+    for (const Item& item : heap_) result.push_back(item.sample);
     std::sort(result.begin(), result.end());
     return result;
   }
 
  private:
-  static constexpr std::uint32_t gone = 0xffffffffU;
-  bool heavier(std::uint32_t a, std::uint32_t b) const {
-    return weights_[a] != weights_[b] ? weights_[a] > weights_[b] : a < b;
+  struct Item {
+    float weight;
+    std::uint32_t sample;
+  };
+  static bool lighter(const Item& a, const Item& b) {
+    return a.weight != b.weight ? a.weight < b.weight : a.sample > b.sample;
   }
-  void sink(std::size_t i) {
-    const std::uint32_t sample = heap_[i];
-    for (;;) {
-      std::size_t child = 2 * i + 1;
-      if (child >= heap_.size()) break;
-      if (child + 1 < heap_.size() && heavier(heap_[child + 1], heap_[child])) ++child;
-      if (!heavier(heap_[child], sample)) break;
+  /// Moves the top to its place.
+  void sink() {
+    const Item item = heap_.front();
+    std::size_t i = 0;
+    for (std::size_t child = 1; child < heap_.size(); child = 2 * i + 1) {
+      if (child + 1 < heap_.size() && lighter(heap_[child], heap_[child + 1])) ++child;
+      if (!lighter(item, heap_[child])) break;
       heap_[i] = heap_[child];
-      at_[heap_[i]] = static_cast<std::uint32_t>(i);
       i = child;
     }
-    heap_[i] = sample;
-    at_[sample] = static_cast<std::uint32_t>(i);
+    heap_[i] = item;
   }
-  std::vector<float> weights_;
-  std::vector<std::uint32_t> heap_, at_;
+  std::vector<float> weights_;  // as they are now
+  std::vector<Item> heap_;
 };
 
 /// Calls work(other, distance) for the samples nearer than `reach` to one; samples stand in the grid's order.

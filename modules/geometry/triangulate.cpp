@@ -38,9 +38,12 @@ std::vector<Trapezoid> trapezoids_of(const std::vector<Edge>& edges, const std::
       if (e.low.y() <= bottom && e.high.y() >= top) crossing.push_back(&e);
     std::sort(crossing.begin(), crossing.end(),
               [&](const Edge* a, const Edge* b) { return a->at(middle) < b->at(middle); });
-    for (std::size_t i = 0; i + 1 < crossing.size(); i += 2)
-      result.push_back(
-          {band, crossing[i]->at(bottom), crossing[i + 1]->at(bottom), crossing[i]->at(top), crossing[i + 1]->at(top)});
+    for (std::size_t i = 0; i + 1 < crossing.size(); i += 2) {
+      const Edge &a = *crossing[i], &b = *crossing[i + 1];  // rings that cross change sides within a band
+      const auto [bottom_left, bottom_right] = std::minmax({a.at(bottom), b.at(bottom)});
+      const auto [top_left, top_right] = std::minmax({a.at(top), b.at(top)});
+      result.push_back({band, bottom_left, bottom_right, top_left, top_right});
+    }
   }
   return result;
 }

@@ -2,9 +2,37 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <iterator>
 
 namespace atrium::io {
+namespace {
+
+std::string_view ply_type(Scalar type) {
+  switch (type) {
+    case Scalar::u8: return "uchar";
+    case Scalar::u16: return "ushort";
+    case Scalar::i32: return "int";
+    case Scalar::f32: return "float";
+    default: return "double";
+  }
+}
+
+}  // namespace
+
+void write_ply_head(const std::vector<OutColumn>& columns, std::size_t points, std::size_t sensors, bool binary,
+                    ByteBuffer& out) {
+  const char* format = !binary                                      ? "ascii"
+                       : std::endian::native == std::endian::little ? "binary_little_endian"
+                                                                    : "binary_big_endian";
+  out.text(fmt::format("ply\nformat {} 1.0\ncomment Atrium; metres\nelement vertex {}\n", format, points));
+  for (const auto& column : columns) out.text(fmt::format("property {} {}\n", ply_type(column.type), column.name));
+  if (sensors == 1)
+    out.text("element camera 1\nproperty double view_px\nproperty double view_py\nproperty double view_pz\n");
+  if (sensors > 1)
+    out.text(fmt::format("element sensor {}\nproperty double x\nproperty double y\nproperty double z\n", sensors));
+  out.text("end_header\n");
+}
 
 std::vector<OutColumn> columns_of(const Cloud& cloud, bool packed_colour) {
   using Point = std::size_t;

@@ -20,6 +20,11 @@ struct OutColumn {
 /// packed_colour: colours as one number `rgb`, and normals as normal_x …, as PCD has them.
 std::vector<OutColumn> columns_of(const Cloud& cloud, bool packed_colour);
 
+/// The header of a PLY file of these columns; with one sensor it has a camera, with more a list of them, whose places
+/// (three doubles each) follow the points.
+void write_ply_head(const std::vector<OutColumn>& columns, std::size_t points, std::size_t sensors, bool binary,
+                    ByteBuffer& out);
+
 /// Writes the points one after the other, in the machine's byte order.
 void write_records(const std::vector<OutColumn>& columns, std::size_t points, ByteBuffer& out);
 /// Writes a line a point, with the shortest digits that give the same numbers again.

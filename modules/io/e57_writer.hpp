@@ -1,5 +1,6 @@
 #pragma once
 #include "graph/api/context.hpp"
+#include "modules/io/cloud_stream.hpp"
 #include "modules/types/cloud.hpp"
 
 namespace atrium::io {
@@ -10,5 +11,8 @@ namespace atrium::io {
 /// extension for surface normals, labels `las:classification`.
 /// `crs`: what stands as coordinateMetadata; empty: none.
 void write_e57(const Cloud& cloud, const std::string& crs, AtomicFile& file);
+
+/// The same in pieces: a scan for each of `scans`, in the order of their points, without bounds.
+std::unique_ptr<CloudStream> e57_stream(const StreamedCloud& cloud, AtomicFile& file);
 
 }  // namespace atrium::io

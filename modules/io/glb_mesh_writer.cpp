@@ -42,6 +42,7 @@ class GlbModel {
     extras["origin"] = Value(Value::Array{Value(offset_.x()), Value(offset_.y()), Value(offset_.z())});
     extras["unit"] = Value(std::string("metre"));
     extras["frame"] = Value(frame_text());
+    extras["to_true"] = Value(to_true());
     model_.asset.extras = Value(extras);
     model_.scenes.emplace_back();
     model_.scenes[0].name = "Atrium";
@@ -62,6 +63,15 @@ class GlbModel {
       }
     }
     return text;
+  }
+
+  /// The same as a matrix, column after column, as a node's.
+  Value::Array to_true() const {
+    Value::Array matrix;
+    for (int c = 0; c < 4; ++c)
+      for (int r = 0; r < 4; ++r)
+        matrix.emplace_back(c == 3 ? (r == 3 ? 1.0 : offset_[r]) : r == 3 ? 0.0 : turn_(c, r));  // turn_: inverse
+    return matrix;
   }
 
   void add(const GlbGroup& group) {

@@ -13,6 +13,8 @@ void JsonField::fail(const std::string& problem, const std::string& help) const 
 }
 bool JsonField::has(const char* key) const { return json_->is_object() && json_->contains(key); }
 bool JsonField::is_list() const { return json_->is_array(); }
+bool JsonField::is_text() const { return json_->is_string(); }
+bool JsonField::is_true() const { return json_->is_boolean() && json_->get<bool>(); }
 
 JsonField JsonField::operator[](const char* key) const {
   if (!json_->is_object()) fail("is not an object");
@@ -26,6 +28,14 @@ std::vector<JsonField> JsonField::items() const {
     result.emplace_back((*json_)[i], path_ + (path_.back() == ':' ? " " : "") + "[" + std::to_string(i) + "]");
   return result;
 }
+std::size_t JsonField::size() const {
+  if (!json_->is_array()) fail("is not a list");
+  return json_->size();
+}
+JsonField JsonField::at(std::size_t index) const {
+  if (index >= size()) fail("has " + std::to_string(json_->size()) + " entries: no [" + std::to_string(index) + "]");
+  return {(*json_)[index], path_ + (path_.back() == ':' ? " " : "") + "[" + std::to_string(index) + "]"};
+}
 std::string JsonField::text() const {
   if (!json_->is_string()) fail("is not a text");
   return json_->get<std::string>();
@@ -33,6 +43,16 @@ std::string JsonField::text() const {
 double JsonField::number() const {
   if (!json_->is_number() || !std::isfinite(json_->get<double>())) fail("is not a number");
   return json_->get<double>();
+}
+std::uint64_t JsonField::natural(const char* key) const {
+  constexpr double most = 9007199254740992.0;
+  const JsonField field = (*this)[key];
+  const double value = field.number();
+  if (value != std::floor(value) || value < 0 || value > most) field.fail("is not a whole number from 0");
+  return static_cast<std::uint64_t>(value);
+}
+std::uint64_t JsonField::natural(const char* key, std::uint64_t otherwise) const {
+  return has(key) ? natural(key) : otherwise;
 }
 std::int32_t JsonField::whole(std::int32_t least, std::int32_t most) const {
   const double value = number();

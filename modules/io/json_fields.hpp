@@ -18,10 +18,20 @@ class JsonField {
   [[noreturn]] void fail(const std::string& problem, const std::string& help = {}) const;
   bool has(const char* key) const;
   bool is_list() const;
+  bool is_text() const;
+  bool is_true() const;
+  const std::string& where() const { return path_; }  ///< "layout.json: planes[3]"
   JsonField operator[](const char* key) const;
   std::vector<JsonField> items() const;
+  /// The number of entries of a list, and one of them: an error if there are fewer.
+  std::size_t size() const;
+  JsonField at(std::size_t index) const;
   std::string text() const;
   double number() const;
+  /// A whole number from 0 to 2⁵³ at `key`, up to which every one can be told from the next; `otherwise` if there is
+  /// none.
+  std::uint64_t natural(const char* key) const;
+  std::uint64_t natural(const char* key, std::uint64_t otherwise) const;
   /// A whole number from `least` to `most`.
   std::int32_t whole(std::int32_t least, std::int32_t most) const;
   /// [x, y, z]; with `flat` [x, y] too, at height `z`.

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "graph/api/context.hpp"
+#include "modules/io/cloud_stream.hpp"
 #include "modules/types/cloud.hpp"
 
 namespace atrium::io {
@@ -13,5 +14,8 @@ namespace atrium::io {
 /// above 255 (31 in LAZ, whose records are of types 0 and 2).
 void write_las(const Cloud& cloud, const std::string& crs, const std::string& path, bool compressed, AtomicFile& file,
                const Context& context);
+
+/// LAS in pieces, without labels. Warns of what is not kept.
+std::unique_ptr<CloudStream> las_stream(const StreamedCloud& cloud, AtomicFile& file, const Context& context);
 
 }  // namespace atrium::io

@@ -274,6 +274,7 @@ RawGeometry read_obj(const std::shared_ptr<const MappedFile>& file, const Contex
 
   RawGeometry geometry;
   geometry.path = file->path();
+  geometry.y_up = true;
   Normals normals;
   bool grouped = false;
   std::size_t unread = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -25,7 +26,7 @@ std::size_t width_of(std::string_view text) {
 class PtxReader {
  public:
   PtxReader(const std::shared_ptr<const MappedFile>& file, const Context& context)
-      : file_(file), lines_(without_mark(file->text()), 1, true, context) {}
+      : context_(context), file_(file), lines_(without_mark(file->text()), 1, true, context) {}
 
   RawGeometry read() {
     std::size_t row = 0;
@@ -35,12 +36,17 @@ class PtxReader {
       throw Error(
           fmt::format("{}: {} scans; the most that can be handled are {}", file_->path(), scans_.size(), most_scans));
     if (scans_.empty()) throw Error(file_->path() + ": no points: the file has no scan with a row");
-    const Row first = lines_.row(scans_.front().first);
-    const std::size_t width = width_of(first.text);
     std::vector<Role> roles{Role::x, Role::y, Role::z, Role::intensity, Role::red, Role::green, Role::blue};
-    if (width != 3 && width != 4 && width != 7)
-      fail(first, fmt::format("{} values; a point of PTX has x y z intensity, and perhaps r g b", width));
-    roles.resize(width);
+    std::size_t widest = 0;
+    for (auto& scan : scans_) {
+      const Row first = lines_.row(scan.first);
+      scan.columns = width_of(first.text);
+      if (scan.columns != 3 && scan.columns != 4 && scan.columns != 7)
+        fail(first, fmt::format("{} values; a point of PTX has x y z intensity, and perhaps r g b", scan.columns));
+      widest = std::max(widest, scan.columns);
+    }
+    roles.resize(widest);
+    warn_of_narrow_scans(file_->path(), scans_, roles, context_);
     RawGeometry geometry;
     geometry.path = file_->path();
     geometry.metres_per_unit = 1.0;
@@ -72,7 +78,7 @@ class PtxReader {
       throw Error(fmt::format("{}:{}: cut short: {} × {} points are promised, but {} lines follow", file_->path(),
                               lines_.row(first).line, columns, rows, left),
                   "copy or export the file again");
-    RowScan scan{first + header_rows, columns * rows, {}, true, true};
+    RowScan scan{first + header_rows, columns * rows, {}, true, true, 0};
     scan.to_file.setIdentity();
     for (int r = 0; r < 4; ++r)  // rows of the file are columns here: p' = p · M
       for (int c = 0; c < 3; ++c)
@@ -98,6 +104,7 @@ class PtxReader {
     return static_cast<std::size_t>(value);
   }
 
+  const Context& context_;
   std::shared_ptr<const MappedFile> file_;
   Lines lines_;
   std::vector<RowScan> scans_;

@@ -65,6 +65,7 @@ struct RawGeometry {
   std::optional<Eigen::Vector3d> viewpoint;                ///< sensor's place if the file states one, in its units
   std::vector<Eigen::Vector3d> sensors;                    ///< several of them; the column `source` is an index here
   std::size_t image_width = 0;  ///< of an image of points, row by row, as one shot of a depth camera is; 0: it is none
+  bool y_up = false;            ///< files of that format usually have y up, as Cloud has it
   bool float_table = false;     ///< the columns are a table of doubles, but the file's coordinates are float32
   std::vector<std::shared_ptr<const void>> storage;  ///< what the columns point into
 

@@ -8,6 +8,8 @@
 #include "graph/api/error.hpp"
 #include "graph/api/mapped_file.hpp"
 #include "modules/io/e57_reader.hpp"
+#include "modules/io/gltf_file.hpp"
+#include "modules/io/gltf_reader.hpp"
 #include "modules/io/las_reader.hpp"
 #include "modules/io/lines.hpp"
 #include "modules/io/obj_reader.hpp"
@@ -22,11 +24,11 @@
 namespace atrium::io {
 namespace {
 
-/// Formats of makers that only their programs read: says what to export from them.
-void refuse_vendors(const std::string& path, const std::string& extension) {
-  struct Vendor {
-    std::string_view extension, format, program;
-  };
+struct Vendor {
+  std::string_view extension, format, program;
+};
+/// Formats of makers that only their programs read; null for others.
+const Vendor* vendor_of(const std::string& extension) {
   static constexpr Vendor vendors[] = {
       {".rcp", "a project of Autodesk ReCap", "ReCap Pro"},
       {".rcs", "a scan of Autodesk ReCap", "ReCap Pro"},
@@ -46,10 +48,9 @@ void refuse_vendors(const std::string& path, const std::string& extension) {
       {".cl3", "a scan of Topcon", "ScanMaster"},
       {".pod", "a point cloud of Bentley", "Bentley Pointools"},
       {".bin", "a project of CloudCompare", "CloudCompare"}};
-  for (const auto& vendor : vendors)
-    if (extension == vendor.extension)
-      throw Error(fmt::format("{}: {}, which only its maker's programs read", path, vendor.format),
-                  fmt::format("export the scan as E57 from {}", vendor.program));
+  const auto* found = std::find_if(std::begin(vendors), std::end(vendors),
+                                   [&](const Vendor& vendor) { return vendor.extension == extension; });
+  return found == std::end(vendors) ? nullptr : found;
 }
 
 /// What has no extension, as a pipe, and does not begin as a format does.
@@ -68,28 +69,78 @@ RawGeometry read_unnamed(const std::shared_ptr<const MappedFile>& file, const Co
               "give a file whose name ends with its format");
 }
 
+using Reader = RawGeometry (*)(const std::shared_ptr<const MappedFile>&, const Context&);
+
+bool is_one_of(const std::string& extension, std::initializer_list<std::string_view> known) {
+  return std::find(known.begin(), known.end(), extension) != known.end();
+}
+
+/// By what the file begins with, or by its extension; null if neither is that of a scan or mesh.
+Reader reader_of(const MappedFile& file) {
+  const std::string extension = extension_of(file.path());
+  const auto is = [&](std::initializer_list<std::string_view> known) { return is_one_of(extension, known); };
+  const std::string_view text = file.text();
+  if (is({".e57"}) || text.starts_with("ASTM-E57")) return read_e57;
+  if (is({".las", ".laz"}) || text.starts_with("LASF")) return read_las;
+  if (text.starts_with("glTF")) return read_gltf;
+  if (is({".ply"}) || begins_as_ply(text)) return read_ply;
+  if (is({".pcd"}) || without_mark(text).starts_with("# .PCD")) return read_pcd;
+  if (is({".glb", ".gltf"}) || begins_as_gltf(text)) return read_gltf;
+  if (is({".obj"})) return read_obj;
+  if (is({".stl"})) return read_stl;
+  if (is({".ptx"}) || is_ptx(text)) return read_ptx;
+  return nullptr;
+}
+
+bool is_text_extension(const std::string& extension) {
+  return is_one_of(extension, {".xyz", ".txt", ".pts", ".csv", ".asc", ".xyzrgb", ".xyzn"});
+}
+
 RawGeometry read(const std::shared_ptr<const MappedFile>& file, const Context& context) {
   const std::string extension = extension_of(file->path());
-  const auto is = [&](std::initializer_list<std::string_view> known) {
-    return std::find(known.begin(), known.end(), extension) != known.end();
-  };
-  const std::string_view text = file->text();
-  if (is({".e57"}) || text.starts_with("ASTM-E57")) return read_e57(file, context);
-  if (is({".las", ".laz"}) || text.starts_with("LASF")) return read_las(file, context);
-  if (is({".ply"}) || begins_as_ply(text)) return read_ply(file, context);
-  if (is({".pcd"}) || without_mark(text).starts_with("# .PCD")) return read_pcd(file, context);
-  if (is({".obj"})) return read_obj(file, context);
-  if (is({".stl"})) return read_stl(file, context);
-  if (is({".ptx"}) || is_ptx(text)) return read_ptx(file, context);
-  refuse_vendors(file->path(), extension);
-  if (is({".xyz", ".txt", ".pts", ".csv", ".asc", ".xyzrgb", ".xyzn"})) return read_text(file, context);
+  if (const Reader reader = reader_of(*file)) return reader(file, context);
+  if (const Vendor* vendor = vendor_of(extension))
+    throw Error(fmt::format("{}: {}, which only its maker's programs read", file->path(), vendor->format),
+                fmt::format("export the scan as E57 from {}", vendor->program));
+  if (is_text_extension(extension)) return read_text(file, context);
   if (extension.empty()) return read_unnamed(file, context);
   throw Error(fmt::format("{}: unknown format '{}'", file->path(), extension),
-              "known: .e57, .las, .laz, .ptx, .ply, .pcd, .obj, .stl, and text as .xyz, .txt, .pts, .csv, .asc, .xyzn, "
-              ".xyzrgb");
+              "known: .e57, .las, .laz, .ptx, .ply, .pcd, .glb, .gltf, .obj, .stl, and text as .xyz, .txt, .pts, .csv, "
+              ".asc, .xyzn, .xyzrgb");
+}
+
+/// Whether one of the first lines has three numbers at least.
+bool has_rows_of_numbers(std::string_view text) {
+  constexpr int looked_at = 50;
+  int lines = 0;
+  bool found = false;
+  for_lines(without_mark(text).substr(0, 65536), [&](std::string_view line) {
+    std::string blanks(line);
+    std::replace_if(
+        blanks.begin(), blanks.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
+    std::string_view rest = blanks;
+    int numbers = 0;
+    double value = 0;
+    for (auto token = next_token(rest); !token.empty(); token = next_token(rest))
+      numbers += parse_number(token, value) ? 1 : 0;
+    found = found || numbers >= 3;
+    return !found && ++lines < looked_at;
+  });
+  return found;
 }
 
 }  // namespace
+
+std::string why_no_scan(const std::string& path) {
+  const MappedFile file(path, MappedFile::Kinds::regular);
+  const std::string extension = extension_of(path);
+  if (file.size() == 0) return "empty";
+  if (reader_of(file) != nullptr) return "";
+  if (const Vendor* vendor = vendor_of(extension))
+    return fmt::format("{}: export it as E57 from {}", vendor->format, vendor->program);
+  if (!is_text_extension(extension)) return "of another format";
+  return has_rows_of_numbers(file.text()) ? "" : "no rows of numbers";
+}
 
 RawGeometry read_geometry(const std::string& path, const Context& context) {
   const auto file = std::make_shared<const MappedFile>(path);

@@ -6,8 +6,12 @@
 
 namespace atrium::io {
 
-/// Reads a file in the format that its beginning shows (PLY, PCD) or that its extension names. Throws Error if that is
-/// none of those that are known. Warns about what was skipped.
+/// Reads a file in the format that its beginning shows or that its extension names. Throws Error if that is none of
+/// those that are known. Warns about what was skipped.
 RawGeometry read_geometry(const std::string& path, const Context& context);
+
+/// Why a regular file is none that read_geometry reads, by its beginning and its extension: "empty"; "" if it may be
+/// one.
+std::string why_no_scan(const std::string& path);
 
 }  // namespace atrium::io

@@ -11,8 +11,7 @@
 #include "modules/io/decode.hpp"
 #include "modules/io/duplicates.hpp"
 #include "modules/io/image_view.hpp"
-#include "modules/io/paths.hpp"
-#include "modules/io/read_geometry.hpp"
+#include "modules/io/scan_files.hpp"
 #include "modules/io/thin_scan.hpp"
 #include "modules/io/unit_guess.hpp"
 
@@ -71,11 +70,6 @@ void hint_at_unit(const std::string& path, const Cloud& cloud, bool forced, cons
                     path, sizes_of(extent, 1)));
 }
 
-bool usually_y_up(const std::string& path) {
-  const std::string extension = extension_of(path);
-  return extension == ".obj" || extension == ".glb" || extension == ".gltf";
-}
-
 double metres_per(ReadScan::Unit unit) {
   switch (unit) {
     case ReadScan::Unit::centimetre: return 0.01;
@@ -97,7 +91,7 @@ double unit_of(const RawGeometry& geometry, const ReadScan::Params& params, cons
                                geometry.path, metres));
     return metres;
   }
-  const UnitGuess guess = guess_unit(unscaled.points, usually_y_up(geometry.path), context);
+  const UnitGuess guess = guess_unit(unscaled.points, geometry.y_up, context);
   if (!guess.warning.empty())
     context.warn(fmt::format("{}: {}", geometry.path, guess.warning));
   else
@@ -153,10 +147,13 @@ Cloud sample(const RawGeometry& geometry, const ReadScan::Params& params, double
 }  // namespace
 
 ReadScan::Out ReadScan::run(const Params& params, Context& context) {
-  const std::string& path = params.path.path;
-  const RawGeometry geometry = read_geometry(path, context);
+  std::vector<std::string> paths;
+  paths.reserve(params.path.size());
+  for (const auto& given : params.path) paths.push_back(given.path);
+  const RawGeometry geometry = read_scan_files(paths, context);
+  const std::string& path = geometry.path;
   const bool sampled = params.mesh == MeshUse::sample && !geometry.triangles.empty();
-  const bool thin = params.voxel > 0 && !sampled;
+  const bool thin = params.voxel > 0 && !sampled && geometry.count > static_cast<std::size_t>(params.voxel_above);
   const auto decoded = [&](double scale) {
     if (sampled) return sample(geometry, params, scale, context);
     return thin ? thinned(geometry, scale, params.voxel, context) : decode_cloud(geometry, scale, context);
@@ -170,11 +167,16 @@ ReadScan::Out ReadScan::run(const Params& params, Context& context) {
     if (unit != 1.0) cloud = decoded(scale *= unit);
   }
   cloud.unit = scale;
-  cloud.y_up = usually_y_up(path);
+  cloud.y_up = geometry.y_up;
   cloud.crs = geometry.crs;
   set_sensor(geometry, params, scale, cloud, context);
   warn_of_lost_digits(geometry, cloud.origin, scale, context);
   hint_at_unit(path, cloud, params.scale != 1.0 || (known && params.unit != Unit::metre), context);
+  if (thin && params.voxel_above > 0)
+    context.warn(
+        fmt::format("{}: {} points become {}, one for each {:.6g} m voxel: noise that is measured against them "
+                    "is that of these means; `voxel: 0` keeps all points",
+                    path, geometry.count, cloud.size(), params.voxel));
   if (!thin)
     warn_of_duplicates(path, cloud, context);
   else if (cloud.size() < 3)

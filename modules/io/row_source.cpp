@@ -24,12 +24,19 @@ RowSource::RowSource(std::shared_ptr<const MappedFile> file, Lines lines, const 
   if (has(Role::red) && has_fractions_of_colours()) colour_factor_ = 255;
 }
 
+std::vector<Role> RowSource::columns_of(const RowScan& scan) const {
+  auto columns = columns_;
+  if (scan.columns > 0) columns.resize(scan.columns);
+  return columns;
+}
+
 /// Whether the colours of the first rows are all within 0 … 1, and not all whole.
 bool RowSource::has_fractions_of_colours() const {
   constexpr std::size_t looked_at = 1000;
   std::vector<double> numbers(columns_.size());
   bool fractions = false, within = true;
-  const RowScan& scan = scans_.front();
+  const RowScan& scan = *std::find_if(scans_.begin(), scans_.end(),
+                                      [&](const RowScan& s) { return s.columns == 0 || s.columns == columns_.size(); });
   for (std::size_t p = 0; p < lines_.pieces().size() && within; ++p)
     lines_.rows_of(p, scan.first, scan.first + std::min(scan.rows, looked_at), [&](const Row& row) {
       read_numbers(file_->path(), row, dialect_, columns_, numbers.data());
@@ -53,8 +60,10 @@ void RowSource::read(std::size_t block, PointBlock& to) const {
                                [](std::size_t row, const RowScan& s) { return row < s.first + s.rows; });
   for (; scan != scans_.end() && scan->first < piece.first_row + piece.rows; ++scan) {
     const auto number = static_cast<double>(scan - scans_.begin());
+    const std::vector<Role> columns = columns_of(*scan);
+    std::fill(numbers.begin(), numbers.end(), 0);
     lines_.rows_of(block, scan->first, scan->first + scan->rows, [&](const Row& row) {
-      read_numbers(file_->path(), row, dialect_, columns_, numbers.data());
+      read_numbers(file_->path(), row, dialect_, columns, numbers.data());
       for (std::size_t c = 0; c < columns_.size(); ++c)
         if (columns_[c] != Role::none)
           to.of(columns_[c])[kept] = is_colour(columns_[c]) ? colour_factor_ * numbers[c] : numbers[c];

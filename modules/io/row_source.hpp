@@ -17,13 +17,15 @@ struct RowScan {
   Eigen::Affine3d to_file = Eigen::Affine3d::Identity();
   bool moved = false;             ///< to_file is not the identity
   bool zeros_are_misses = false;  ///< (0, 0, 0) is a ray that hit nothing
+  std::size_t columns = 0;        ///< how many of the file's columns this scan has; 0: all
 };
 
 /// The points of a text file, one a row, in scans: a block is a piece of the file of about a megabyte. Colours are as
 /// they stand there, 0 … 255; times 255 where those of the first rows are fractions of 1.
 class RowSource : public PointSource {
  public:
-  /// `roles`: of the columns, the same in all scans, which come in the order of rows. Several scans are told apart by
+  /// `roles`: of the columns, the same in all scans, which come in the order of rows; what a scan of fewer columns
+  /// lacks is 0. Several scans are told apart by
   /// Role::source if their scanners' places are known. A row with another number of columns is an error.
   RowSource(std::shared_ptr<const MappedFile> file, Lines lines, const TextDialect& dialect, std::vector<Role> roles,
             std::vector<RowScan> scans, bool places_known = false);
@@ -35,6 +37,7 @@ class RowSource : public PointSource {
 
  private:
   bool has_fractions_of_colours() const;
+  std::vector<Role> columns_of(const RowScan& scan) const;
 
   std::shared_ptr<const MappedFile> file_;
   Lines lines_;

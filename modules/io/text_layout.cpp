@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "graph/api/error.hpp"
@@ -78,6 +79,37 @@ std::vector<Role> named_roles(std::string_view line, const TextDialect& dialect,
     if (!roles.empty() && (best.empty() || (best.size() != width && roles.size() == width))) best = std::move(roles);
   }
   return best;
+}
+
+/// Metres per unit, if names have one unit of length in brackets: "X [ft]", "Easting(m)".
+std::optional<double> unit_in(std::string_view names) {
+  constexpr std::pair<std::string_view, double> units[] = {{"m", 1},
+                                                           {"metre", 1},
+                                                           {"metres", 1},
+                                                           {"meter", 1},
+                                                           {"meters", 1},
+                                                           {"cm", 0.01},
+                                                           {"mm", 0.001},
+                                                           {"in", 0.0254},
+                                                           {"inch", 0.0254},
+                                                           {"inches", 0.0254},
+                                                           {"ft", 0.3048},
+                                                           {"foot", 0.3048},
+                                                           {"feet", 0.3048},
+                                                           {"us-ft", 1200.0 / 3937},
+                                                           {"ftus", 1200.0 / 3937}};
+  std::optional<double> found;
+  for (std::size_t at = names.find_first_of("[("); at != std::string_view::npos;
+       at = names.find_first_of("[(", at + 1)) {
+    const std::string_view rest = names.substr(at + 1);
+    const std::string text = lower_case(rest.substr(0, rest.find_first_of("])")));
+    for (const auto& [unit, metres] : units) {
+      if (text != unit) continue;
+      if (found && *found != metres) return std::nullopt;
+      found = metres;
+    }
+  }
+  return found;
 }
 
 bool is_numeric(const Fields& fields, const TextDialect& dialect) {
@@ -191,8 +223,9 @@ std::string text_of(const std::vector<Role>& roles) {
 }
 
 std::vector<Role> unnamed_roles(const std::string& path, const std::vector<Row>& rows, const TextDialect& dialect,
-                                std::size_t width, const Context& context) {
+                                std::size_t width, bool pts, const Context& context) {
   using enum Role;
+  if (pts && width == 7) return {x, y, z, intensity, red, green, blue};
   if (width == 6 && lower_case(path).ends_with(".xyzn")) return {x, y, z, nx, ny, nz};
   if (width == 6 && lower_case(path).ends_with(".xyzrgb")) return {x, y, z, red, green, blue};
   const SampledRows numbers(path, rows, dialect, width);
@@ -254,11 +287,29 @@ std::vector<RowScan> counted_scans(const std::string& path, const Lines& lines, 
                               tokens.size() == 1 ? std::string(tokens[0]) : quote(head.text), left),
                   "the file is cut short");
     const auto rows = static_cast<std::size_t>(points);
-    if (rows > 0) scans.push_back({at + 1, rows, Eigen::Affine3d::Identity(), false, false});
+    if (rows > 0) scans.push_back({at + 1, rows, Eigen::Affine3d::Identity(), false, false, 0});
     at += 1 + rows;
   }
   if (scans.empty()) throw Error(path + ": no points: the scans have 0 points");
   return scans;
+}
+
+/// Notes how many columns each scan has; the first one of those with the most.
+const RowScan& widest_of(std::vector<RowScan>& scans, const Lines& lines) {
+  for (auto& scan : scans) scan.columns = tokens_of(lines.row(scan.first).text).size();
+  return *std::max_element(scans.begin(), scans.end(),
+                           [](const RowScan& a, const RowScan& b) { return a.columns < b.columns; });
+}
+
+/// Scans of fewer columns have the first ones only: x y z, or these and an intensity.
+void check_narrow_scans(const std::string& path, const std::vector<RowScan>& scans, const std::vector<Role>& roles,
+                        const Lines& lines) {
+  for (const auto& scan : scans)
+    if (scan.columns != roles.size() && scan.columns != 3 && (scan.columns != 4 || roles[3] != Role::intensity))
+      throw Error(
+          fmt::format("{}:{}: {} values a point, where the file's other scans have {}: which columns are "
+                      "missing cannot be told",
+                      path, lines.row(scan.first).line, scan.columns, roles.size()));
 }
 
 /// The first rows, up to `most` from `first` on.
@@ -270,6 +321,30 @@ std::vector<Row> some_rows(const Lines& lines, std::size_t first, std::size_t mo
   return rows;
 }
 
+/// The first row may hold names.
+TextDialect dialect_of_rows(const std::vector<Row>& rows) {
+  Fields sample;
+  for (std::size_t i = rows.size() > 1 ? 1 : 0; i < rows.size(); ++i) sample.push_back(rows[i].text);
+  return dialect_of(sample);
+}
+
+/// How many fields there are without the empty ones at the end, three at least.
+std::size_t filled_width(const Fields& fields) {
+  std::size_t width = fields.size();
+  while (width > 3 && fields[width - 1].empty()) --width;
+  return width;
+}
+
+/// A row has a value for each column; empty fields may follow.
+void check_width(const std::string& path, const Row& row, const Fields& fields, const std::vector<Role>& roles) {
+  const bool behind =
+      fields.size() > roles.size() && std::all_of(fields.begin() + static_cast<std::ptrdiff_t>(roles.size()),
+                                                  fields.end(), [](std::string_view f) { return f.empty(); });
+  if (roles.size() != fields.size() && !behind)
+    throw Error(fmt::format("{}:{}: {} columns are named, but the line has {} values", path, row.line, roles.size(),
+                            fields.size()));
+}
+
 }  // namespace
 
 TextLayout text_layout(const std::string& path, std::string_view text, const Lines& lines, const Context& context) {
@@ -279,16 +354,16 @@ TextLayout text_layout(const std::string& path, std::string_view text, const Lin
   std::size_t end = lines.rows();
   const Fields first = tokens_of(lines.row(0).text);
   double count = 0;
-  if (first.size() == 1 && parse_number(first[0], count) && (lines.rows() > 1 || count == 0)) {  // PTS: how many points
+  const bool pts = first.size() == 1 && parse_number(first[0], count) && (lines.rows() > 1 || count == 0);
+  if (pts) {  // how many points
     auto scans = counted_scans(path, lines, context);
-    layout.first_row = scans.front().first;
-    end = layout.first_row + scans.front().rows;
+    const RowScan& shown = widest_of(scans, lines);
+    layout.first_row = shown.first;
+    end = shown.first + shown.rows;
     if (scans.size() > 1 || end != lines.rows()) layout.scans = std::move(scans);
   }
   std::vector<Row> rows = some_rows(lines, layout.first_row, std::min(looked_at, end - layout.first_row));
-  Fields sample;
-  for (std::size_t i = rows.size() > 1 ? 1 : 0; i < rows.size(); ++i) sample.push_back(rows[i].text);
-  layout.dialect = dialect_of(sample);
+  layout.dialect = dialect_of_rows(rows);
   if (layout.dialect.decimal_comma) context.info(path + ": numbers with a decimal comma");
 
   const std::size_t width_below = row_fields(rows.back().text, layout.dialect).size();
@@ -300,25 +375,33 @@ TextLayout text_layout(const std::string& path, std::string_view text, const Lin
       throw Error(fmt::format("{}:{}: neither numbers nor column names with x, y and z: {}", path, rows[0].line,
                               quote(rows[0].text)),
                   columns_help);
+    layout.metres_per_unit = unit_in(names);
     ++layout.first_row;
     rows.erase(rows.begin());
     if (rows.empty()) throw Error(path + ": no points after the line of column names");
   } else if (!names.empty()) {
     layout.roles = named_roles(names, layout.dialect, width_below);
+    layout.metres_per_unit = unit_in(names);
   }
   const Fields fields = row_fields(rows.front().text, layout.dialect);
   if (layout.roles.empty()) {
-    std::size_t width = fields.size();
-    while (width > 3 && fields[width - 1].empty()) --width;
-    layout.roles = unnamed_roles(path, rows, layout.dialect, width, context);
+    layout.roles = unnamed_roles(path, rows, layout.dialect, filled_width(fields), pts, context);
   }
-  const bool behind = fields.size() > layout.roles.size() &&
-                      std::all_of(fields.begin() + static_cast<std::ptrdiff_t>(layout.roles.size()), fields.end(),
-                                  [](std::string_view f) { return f.empty(); });
-  if (layout.roles.size() != fields.size() && !behind)
-    throw Error(fmt::format("{}:{}: {} columns are named, but the line has {} values", path, rows.front().line,
-                            layout.roles.size(), fields.size()));
+  check_width(path, rows.front(), fields, layout.roles);
+  if (!layout.scans.empty()) {
+    check_narrow_scans(path, layout.scans, layout.roles, lines);
+    warn_of_narrow_scans(path, layout.scans, layout.roles, context);
+  }
   return layout;
+}
+
+void warn_of_narrow_scans(const std::string& path, const std::vector<RowScan>& scans, const std::vector<Role>& roles,
+                          const Context& context) {
+  const auto narrow =
+      std::count_if(scans.begin(), scans.end(), [&](const RowScan& scan) { return scan.columns < roles.size(); });
+  if (narrow > 0)
+    context.warn(fmt::format("{}: {} of {} scans have fewer columns than {}: what they lack is 0", path, narrow,
+                             scans.size(), text_of(roles)));
 }
 
 void read_numbers(const std::string& path, const Row& row, const TextDialect& dialect, const std::vector<Role>& roles,

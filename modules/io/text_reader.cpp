@@ -17,6 +17,7 @@ RawGeometry read_text(const std::shared_ptr<const MappedFile>& file, const Conte
   const TextLayout layout = text_layout(file->path(), text, lines, context);
   RawGeometry geometry;
   geometry.path = file->path();
+  geometry.metres_per_unit = layout.metres_per_unit;
   if (!layout.scans.empty()) {
     for (const auto& scan : layout.scans) geometry.count += scan.rows;
     geometry.source =

@@ -28,6 +28,9 @@ struct Rated {
   int furniture = 0, doors = 0;
 };
 
+/// Nobody scans rooms that one cannot stand in.
+bool is_too_low(const Rated& rated) { return rated.height > 0 && rated.height < 1.8; }
+
 /// Coordinates along one axis of about `most` points, sorted.
 std::vector<float> along(const std::vector<Eigen::Vector3f>& points, int axis, std::size_t most) {
   std::vector<float> values;
@@ -141,10 +144,10 @@ UnitGuess guess_unit(const std::vector<Eigen::Vector3f>& points, bool y_up, cons
   rated.reserve(std::size(units));
   for (const auto& unit : units) rated.push_back(rate(unit, extent, pieces, faces, y_up, context));
   const Rated& metres = rated.front();
-  const Rated* best = &rated[1];
+  const Rated* best = nullptr;
   for (const auto& r : rated)
-    if (&r != &metres && r.score > best->score) best = &r;
-  if (best->score < -1e299) return {};
+    if (&r != &metres && !is_too_low(r) && (best == nullptr || r.score > best->score)) best = &r;
+  if (best == nullptr || best->score < -1e299) return {};
   const double odds = std::exp(std::min(50.0, best->score - metres.score));
   // A hall is as high in metres as a room in feet: furniture or a door has to say which it is.
   constexpr double clear = 4.5, doubt = 0.1, certain = 100, highest_hall = 20, some_things = 0.8;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cmath>
 #include <optional>
 
@@ -20,29 +19,9 @@ std::optional<Eigen::Vector3d> single_sensor(const Cloud& cloud) {
   return cloud.origin + cloud.sensors[0].cast<double>();
 }
 
-std::string_view ply_type(Scalar type) {
-  switch (type) {
-    case Scalar::u8: return "uchar";
-    case Scalar::u16: return "ushort";
-    case Scalar::i32: return "int";
-    case Scalar::f32: return "float";
-    default: return "double";
-  }
-}
-
 void write_cloud_ply(const Cloud& cloud, bool binary, ByteBuffer& out) {
   const auto columns = columns_of(cloud, false);
-  const char* format = !binary                                      ? "ascii"
-                       : std::endian::native == std::endian::little ? "binary_little_endian"
-                                                                    : "binary_big_endian";
-  out.text(fmt::format("ply\nformat {} 1.0\ncomment Atrium; metres\nelement vertex {}\n", format, cloud.size()));
-  for (const auto& column : columns) out.text(fmt::format("property {} {}\n", ply_type(column.type), column.name));
-  if (cloud.sensors.size() == 1)
-    out.text("element camera 1\nproperty double view_px\nproperty double view_py\nproperty double view_pz\n");
-  const std::size_t several = cloud.sensors.size() > 1 ? cloud.sensors.size() : 0;
-  if (several > 0)
-    out.text(fmt::format("element sensor {}\nproperty double x\nproperty double y\nproperty double z\n", several));
-  out.text("end_header\n");
+  write_ply_head(columns, cloud.size(), cloud.sensors.size(), binary, out);
   if (binary)
     write_records(columns, cloud.size(), out);
   else

@@ -5,7 +5,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "modules/layout/ceilings_behind.hpp"
 #include "modules/layout/covered_floor.hpp"
+#include "modules/layout/floor_beyond.hpp"
 #include "modules/layout/kept_rooms.hpp"
 #include "modules/layout/room_doubts.hpp"
 #include "modules/layout/slopes_left_out.hpp"
@@ -54,9 +56,10 @@ double area_of(const Building& building) {
   return area;
 }
 
-/// Rooms into which no door, passage or hole in a slab leads, where there are others; empty without openings.
+/// Rooms into which no door, passage or hole in a slab leads, where there are others; empty if nobody has looked for
+/// openings and walls.
 std::vector<std::string> rooms_without_a_way(const Building& building) {
-  if (building.openings.empty() || building.rooms.size() < 2) return {};
+  if ((building.openings.empty() && building.walls.empty()) || building.rooms.size() < 2) return {};
   std::vector<bool> open(building.rooms.size(), false);
   for (const auto& opening : building.openings) {
     if (opening.kind == "window") continue;
@@ -67,6 +70,23 @@ std::vector<std::string> rooms_without_a_way(const Building& building) {
   for (std::size_t r = 0; r < open.size(); ++r)
     if (!open[r]) names.push_back(building.rooms[r].name);
   return names;
+}
+
+/// Floor in no room: under a ceiling, or between walls beside the rooms.
+void judge_missing_floor(const PlanePrimitives& planes, const Frame& frame, Building& building) {
+  const CoveredFloor covered = covered_floor_without_room(building, planes);
+  const FloorBeyond beyond = floor_beyond_rooms(building, planes);
+  if (covered.missing > 0)
+    building.doubts.push_back(fmt::format("{:.1f} m2 of floor under a ceiling are in no room (the largest piece {})",
+                                          covered.missing, frame.place(covered.where)));
+  else if (beyond.area > 0)
+    building.doubts.push_back(
+        fmt::format("{:.1f} m2 of floor between walls are in no room (the largest piece, {:.1f} "
+                    "m2, {}): rooms, parts of them or a terrace, seen through openings only",
+                    beyond.area, beyond.largest, frame.place(beyond.where)));
+  const double area = area_of(building);
+  building.confidence *= std::min(ramp(area / (area + covered.missing), 0.3, 0.9, 0.3, 1),
+                                  ramp(area / (area + beyond.area), 0.3, 0.9, 0.8, 1));
 }
 
 /// Judges the building by its rooms and by what they leave out.
@@ -88,12 +108,7 @@ void judge(const PlanePrimitives& planes, const Frame& frame, Building& building
   if (const auto closed = rooms_without_a_way(building); !closed.empty())
     building.doubts.push_back(fmt::format("no door or passage was found into {} of {} rooms ({}{})", closed.size(),
                                           building.rooms.size(), listed(closed, 5), closed.size() > 5 ? "; …" : ""));
-  const CoveredFloor covered = covered_floor_without_room(building, planes);
-  if (!(covered.missing > 0)) return;
-  const double area = area_of(building), share = area / (area + covered.missing);
-  building.confidence *= ramp(share, 0.3, 0.9, 0.3, 1);
-  building.doubts.push_back(fmt::format("{:.1f} m2 of floor under a ceiling are in no room (the largest piece {})",
-                                        covered.missing, frame.place(covered.where)));
+  judge_missing_floor(planes, frame, building);
 }
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -121,7 +136,10 @@ Confidence::Out Confidence::run(const In& in, const Params& params, Context& con
   Building building = with_origin(*in.building, planes.cloud->origin);
   building.doubts.clear();
   const Frame frame{in.transform ? inverse(*in.transform) : Transform{}, building.origin};
-  const auto evidence = room_evidence(building, planes, face_grids(building, planes, context));
+  constexpr double column = 0.05;  // metres
+  std::vector<Footprint> walls = footprints(planes, column, context);
+  find_open_tops(planes, walls, context);
+  const auto evidence = room_evidence(building, planes, face_grids(building, planes, context), walls);
   std::vector<bool> kept;
   std::size_t best = 0;
   for (std::size_t r = 0; r < building.rooms.size(); ++r) {

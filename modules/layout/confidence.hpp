@@ -15,24 +15,27 @@ namespace atrium::layout {
 /// | enclosed: wall seen along the outline, up to a third of it | from 80 % of its length | 0 at 45 % | open sides |
 /// | contact: seen wall on a seen floor or up to a seen ceiling | from 40 % of that length | 0 at 5 % | furniture |
 /// | floor or ceiling seen, the better of both | from 50 % | 0 at 10 % | with only one of them at most 0.85 |
-/// | height over its best square metre | 2 to 5 m | 0 at 1.2 m; 0.5 at 8 m; 0.4 above 15 m | units, wrong floor |
-/// | area | from 1.5 m2 | 0 at 0.5 m2 | cupboards |
+/// | height over its best square metre | 2 to 5 m, or in halls | 0 at 1.2 m; 0.5 at 8 m; 0.4 above 15 m | units |
+/// | area | from 0.9 m2 | 0 at 0.4 m2 | cupboards |
 /// | width (2 area / perimeter) | from 0.4 m | 0 at 0.2 m | slits between two layers of a wall |
-/// | walls in it, floor to ceiling | up to 6 % of its perimeter | 0.3 at 30 % | rooms that were not parted |
+/// | walls in it, floor to ceiling | up to 4 % of its perimeter | 0.3 at 20 % | rooms that were not parted |
+/// | walls that end below a ceiling which goes on behind them | up to 0.5 m | 0.6 at 3 m | fronts of cupboards |
 /// | another floor over an unseen one, or ceiling under one | up to 20 % of its area | 0.3 at 60 % | wrong height |
 /// | a piece of its floor without a ceiling over it, where the rest has one | up to 25 % | 0.7 at 50 % | outside |
 /// | another room has the same place | up to 10 % of its area | 0.2 at 50 % | rooms overlap |
 ///
 /// Squares of 25 cm are looked at, without openings; walls within 15 cm of their plane, floors and ceilings within 10
-/// cm. The reasons for shares below 0.9 stand in `doubts`, the gravest first.
+/// cm. In a hall, height is less than 0.45 times the root of the area. Other floors at the height of furniture (25 to
+/// 95 cm) count if they have more than 5 m2. The reasons for shares below 0.9 stand in `doubts`, the gravest first.
 ///
 /// The building's confidence is that of its rooms by area, times 1 if they hold 90 % or more of the floor that lies
 /// under a ceiling 1.8 m or more above it, down to 0.3 if they hold 30 % of it (pieces of less than 2 m2 do not count);
+/// times 1 down to 0.8 by the same shares of the floor that was seen beside the rooms between walls (FloorBeyond);
 /// times 1 if z is up with 90 % or more (Transform::upright), down to 0.5 at 40 %; and times 1 if sloping surfaces that
 /// are in no face have 5 % of the rooms' area or less, down to 0.4 at 50 %.
 ///
-/// Where there are openings, rooms into which none but windows leads are a doubt, too, without weight: doors may be
-/// missed.
+/// Where there are openings or walls with two sides, rooms into which none but windows leads are a doubt, too, without
+/// weight: doors may be missed.
 ///
 /// Rooms below min_confidence are left out, with a warning that names place and reason; openings into them then lead
 /// to what is not known. Storeys without rooms are left out, too. Rooms keep their names. Rooms below doubtful are

@@ -294,7 +294,10 @@ double wall_reach(const Footprint& wall, const Eigen::Vector2d& p, double floor,
   int seen = 0;
   for (int row = first; row <= last; ++row)
     seen += r.at(column, row) || r.at(column - 1, row) || r.at(column + 1, row) ? 1 : 0;
-  return std::min(1.0, seen / (enough * (last - first + 1)));
+  // Fronts of cupboards end below a ceiling that goes on behind them.
+  const bool known = column >= 0 && column < static_cast<int>(wall.open_top.size());
+  const double open = known ? wall.open_top[static_cast<std::size_t>(column)] : 0;
+  return std::min(1.0, seen / (enough * (last - first + 1))) * (1 - open);
 }
 
 bool ceiling_scanned(const StoreyCells& storey) {

@@ -41,6 +41,22 @@ void open_up(FaceEvidence& evidence, double farthest) {
   evidence.open.cover(evidence.through, std::max(farthest, 0.0));
 }
 
+/// How far behind a face the next surface begins, whether it is a face of the building or not: where points stand
+/// behind the solid part of the face.
+double depth_of_next(const FaceEvidence& evidence) {
+  constexpr double slab = 0.02, least = 0.05;  // metres; of the face's own points
+  constexpr std::size_t strays = 20, slabs = 50;
+  const FaceMask inner = evidence.mask.eroded(evidence.spacing + evidence.mask.pixel());
+  std::vector<std::size_t> counts(slabs, 0);
+  for (const auto& p : evidence.behind)
+    if (const auto i = static_cast<std::size_t>(p.z() / slab); i < slabs && inner.at(p.head<2>()) == Square::solid)
+      ++counts[i];
+  const auto all = static_cast<std::size_t>(least * static_cast<double>(evidence.on.size()));
+  for (std::size_t i = 0; i + 1 < slabs; ++i)
+    if (counts[i] + counts[i + 1] >= std::max(strays, all)) return slab * static_cast<double>(i);
+  return slab * static_cast<double>(slabs);
+}
+
 /// The building and as much around it as its faces look behind themselves.
 Eigen::AlignedBox3d around(const Building& building, const Openings::Params& params) {
   Eigen::AlignedBox3d box;
@@ -98,6 +114,25 @@ RoomView EvidenceFinder::view_of(std::int32_t index) const {
   return view;
 }
 
+double EvidenceFinder::noise_of(const BuildingFace& face) const {
+  constexpr double per_median = 1.4826;  // of a normal distribution
+  std::vector<double> distances;
+  Eigen::AlignedBox3d around;
+  const double reach = 3 * face.residual;
+  for (const auto v : face.outline) {
+    around.extend(building_.vertices[v] + reach * face.plane.normal);
+    around.extend(building_.vertices[v] - reach * face.plane.normal);
+  }
+  space_.each_point_in(around, [&](const Eigen::Vector3d& p) {
+    const double distance = std::abs(face.plane.signed_distance(p));
+    if (distance <= reach && around.contains(p)) distances.push_back(distance);
+  });
+  if (distances.empty()) return face.residual;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return std::min(face.residual, per_median * *middle);
+}
+
 FaceEvidence EvidenceFinder::gather(std::size_t index) const {
   constexpr double noise_levels = 3;
   const BuildingFace& face = building_.faces[index];
@@ -106,7 +141,7 @@ FaceEvidence EvidenceFinder::gather(std::size_t index) const {
   const RoomView& view = views_[static_cast<std::size_t>(face.room)];
   if (view.places.empty()) return evidence;
   evidence.frame = upright_frame(face.plane, building_.vertices[face.outline[0]]);
-  const double noise = noise_levels * face.residual;
+  const double noise = noise_levels * noise_of(face);
   evidence.tolerance = std::clamp(noise, params_.tolerance, 2 * params_.tolerance);
   // The reveals of a door in a thin wall lie between its faces: points there are not all on one of them.
   if (const double thickness = thickness_at(index); thickness < params_.max_thickness)
@@ -159,10 +194,13 @@ double EvidenceFinder::thickness_at(std::size_t index) const {
   return thickness;
 }
 
-/// Points between the face and the one behind it; none can be in a solid wall.
+/// Points between the face and the next surface behind it; none can be in a solid wall.
 void EvidenceFinder::find_body(std::size_t index, FaceEvidence& evidence) const {
   double thickness = thickness_at(index);
-  if (thickness < params_.max_thickness) thickness -= 0.5 * evidence.tolerance;
+  if (thickness < params_.max_thickness)
+    thickness -= 0.5 * evidence.tolerance;
+  else
+    thickness = std::min(thickness, depth_of_next(evidence));
   for (const auto& p : evidence.behind)
     if (p.z() < thickness) evidence.through.emplace_back(p.head<2>());
 }

@@ -48,6 +48,9 @@ class EvidenceFinder {
 
  private:
   RoomView view_of(std::int32_t room) const;
+  /// How far the face's own points scatter, metres: as the middle one does. The residual of its plane also holds what
+  /// stands before the wall and within it, such as reveals and backs of cupboards.
+  double noise_of(const BuildingFace& face) const;
   void collect_points(const BuildingFace& face, FaceEvidence& evidence) const;
   void find_ways(const BuildingFace& face, FaceEvidence& evidence) const;
   /// The least thickness of the walls that the face is a side of; max_thickness if it is none.

@@ -183,22 +183,28 @@ bool seen_through(const FaceEvidence& evidence, const FaceHole& hole) {
 
 /// Whether one can go through a hole that meets the floor: a leaf fills it, or the floor goes on behind it.
 bool leads_on(const FaceEvidence& evidence, const FaceHole& hole, const Openings::Params& params) {
-  constexpr double reveal = 0.15, least = 0.2;  // metres inside of the sides; of the density of the face's own points
+  constexpr double reveal = 0.15, strip = 0.1;  // metres inside of the sides; of a strip of floor
+  constexpr double least = 0.2;                 // of the density of the face's own points
   const FaceMask& mask = evidence.mask;
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(reveal).cwiseMin(0.25 * hole.box.sizes());
   const Eigen::AlignedBox2d inner(hole.box.min() + margin, hole.box.max() - margin);
   const auto solid = static_cast<double>(mask.count(mask.squares_in(mask.box()), Square::solid));
   const double density = static_cast<double>(evidence.on.size()) / std::max(1.0, solid);  // per square
-  double leaf = 0, floor = 0;
+  double leaf = 0;
+  std::size_t floor = 0;
+  std::vector<bool> strips(static_cast<std::size_t>(std::max(1.0, inner.sizes().x() / strip)), false);
   for (const auto& p : evidence.behind) {
-    if (p.z() < params.max_thickness)
+    if (p.z() < params.max_thickness) {
       leaf += inner.contains(Eigen::Vector2d(p.head<2>())) ? 1 : 0;
-    else if (p.x() > inner.min().x() && p.x() < inner.max().x() && p.y() < hole.box.min().y() + reveal)
-      floor += 1;
+    } else if (p.x() > inner.min().x() && p.x() < inner.max().x() && p.y() < hole.box.min().y() + reveal) {
+      ++floor;
+      const double at = (p.x() - inner.min().x()) / inner.sizes().x() * static_cast<double>(strips.size());
+      strips[std::min(strips.size() - 1, static_cast<std::size_t>(at))] = true;
+    }
   }
   const double per_square = least * density / (mask.pixel() * mask.pixel());
-  return leaf >= per_square * inner.volume() ||
-         floor >= per_square * inner.sizes().x() * (depth_behind(params) - params.max_thickness);
+  const auto covered = static_cast<std::size_t>(std::count(strips.begin(), strips.end(), true));
+  return leaf >= per_square * inner.volume() || (floor >= few && 2 * covered >= strips.size());
 }
 
 /// Leaves out those that touch a larger one: they are its fringe.

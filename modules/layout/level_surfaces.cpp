@@ -76,7 +76,7 @@ class Levels {
   bool is_wide(const Candidate& l) const {
     if (l.slanted) return true;
     const double pixel = l.filled.pixel;
-    return l.filled.has_patch(std::max(limits_.least_width, pixel > pixel_ ? 3 * pixel : 0), 0.75);
+    return l.filled.is_wide(std::max(limits_.least_width, pixel > pixel_ ? 3 * pixel : 0));
   }
 
   void find_shelter() {
@@ -92,7 +92,8 @@ class Levels {
       best = std::max(best, l.area * l.sheltered);
       if (l.area < least_raised) continue;
       const Shelter::Piece piece = shelter.largest_piece(l.primitive);
-      l.raised = piece.area >= least_raised && piece.walled >= least_walled;
+      l.raised =
+          piece.area >= least_raised && piece.walled >= least_walled && shelter.stooped(l.primitive) <= most_stooped;
     }
     if (best >= limits_.least_area) return;
     for (Candidate& l : levels_) l.sheltered = 1;

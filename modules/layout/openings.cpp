@@ -44,6 +44,32 @@ struct HeightRange {
   }
 };
 
+double height_of(const BuildingOpening& opening) {
+  HeightRange range;
+  for (const auto& corner : opening.outline_a) range.add(corner.z());
+  return range.high - range.low;
+}
+double width_of(const BuildingOpening& opening) { return (opening.outline_a[1] - opening.outline_a[0]).norm(); }
+
+/// Doors that are too low have upper parts that are hidden, or they are none if they are narrow, too: left out.
+void judge_low_doors(Building& building, double least_height, Context& context) {
+  constexpr double least_width = 0.6;  // metres; of a door whose upper part may be hidden
+  std::size_t low = 0;
+  double lowest = least_height;
+  const auto left_out = std::erase_if(building.openings, [&](const BuildingOpening& opening) {
+    if (opening.kind != "door" || height_of(opening) >= least_height) return false;
+    if (width_of(opening) < least_width) return true;
+    ++low;
+    lowest = std::min(lowest, height_of(opening));
+    return false;
+  });
+  if (left_out > 0)
+    context.info(fmt::format("{} holes down to a floor are too small for doors: they are left closed", left_out));
+  if (low > 0)
+    context.warn(fmt::format("{} doors are lower than {:.2f} m, the lowest {:.2f} m: their upper parts may be hidden",
+                             low, least_height, lowest));
+}
+
 /// Whether the opening would be a door if the building stood on its head: it hangs from the ceiling, is as high as a
 /// door and ends well above the floor.
 bool is_hanging_door(const Building& building, const BuildingOpening& opening) {
@@ -53,7 +79,7 @@ bool is_hanging_door(const Building& building, const BuildingOpening& opening) {
   for (const auto& corner : opening.outline_a) hole.add(corner.z());
   for (const auto v : building.faces[static_cast<std::size_t>(opening.face_a)].outline)
     wall.add(building.vertices[v].z());
-  const double height = hole.high - hole.low;
+  const double height = height_of(opening);
   return wall.high - hole.high < at_ceiling && hole.low - wall.low > off_floor && height > lowest && height < highest;
 }
 
@@ -102,6 +128,7 @@ Openings::Out Openings::run(const In& in, const Params& params, Context& context
   std::size_t doubtful = 0;
   for (auto& holes : found) doubtful += std::erase_if(holes, [](const FaceHole& hole) { return hole.doubtful; });
   building.openings = joined(building, found, params.max_door_width);
+  judge_low_doors(building, params.min_door_height, context);
   const auto count = [&](std::string_view kind) {
     return std::count_if(building.openings.begin(), building.openings.end(),
                          [&](const auto& opening) { return opening.kind == kind; });

@@ -24,8 +24,9 @@ namespace atrium::layout {
 ///   its rim were seen, most of it is in sight, it has 0.3 m² or more, and nothing stands up to 0.6 m before it. The
 ///   warning counts these, and gaps that are less clean, which are left closed.
 /// - What begins within sill_height over its face's foot, or hides its foot and joins two rooms or has a leaf, is a
-///   door and reaches the foot; wider than max_door_width it is a passage. One that joins no rooms, shows no leaf and
-///   has no floor beyond is glazed: a window, as all others are.
+///   door and reaches the foot; wider than max_door_width it is a passage. Lower than min_door_height, it is
+///   warned of; it is left out if it is less than 0.6 m wide, too. One that joins no rooms, shows no
+///   leaf and has no floor beyond is glazed: a window, as all others are.
 /// - Faces that are inferred have no openings of their own. Around an opening the face must have been seen: on min_rim
 ///   of a rim of 15 cm, on min_wide_rim of it for slabs and for what is wider than max_door_width. These must have
 ///   their rim on each side, wide openings in walls both jambs in the face. Openings for which too little was seen are
@@ -59,6 +60,7 @@ struct Openings {
     double min_slab_width = 0.7;
     double min_fill = 0.7;
     double sill_height = 0.2;
+    double min_door_height = 1.5;
     double max_thickness = 0.6;
     double max_door_width = 2;
     double min_rim = 0.3;
@@ -76,6 +78,7 @@ struct Openings {
                  param<&Params::min_slab_width>(metres, within(0.05, 10), "Of an opening in a floor or ceiling."),
                  param<&Params::min_fill>(ratio, within(0, 1), "Share of an opening's rectangle that is a hole."),
                  param<&Params::sill_height>(metres, within(0, 10), "Lower openings are doors."),
+                 param<&Params::min_door_height>(metres, within(0, 10), "Lower doors are warned of, or left out."),
                  param<&Params::max_thickness>(metres, within(0.01, 10), "Of a wall or slab."),
                  param<&Params::max_door_width>(metres, within(0.1, 100), "What is wider is a passage."),
                  param<&Params::min_rim>(ratio, within(0, 1), "Share of the rim around an opening that was seen."),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "modules/layout/ceilings_behind.hpp"
 #include "modules/layout/coverage.hpp"
 #include "modules/layout/plan_cells.hpp"
 #include "modules/layout/storey_planes.hpp"
@@ -44,7 +45,8 @@ Partition::Out Partition::run(const In& in, const Params& params, Context& conte
   Out out;
   out.cells.origin = planes.cloud->origin;
   out.cells.pixel = fitting_pixel(planes, params.pixel, context);
-  const std::vector<Footprint> seen = footprints(planes, out.cells.pixel, context);
+  std::vector<Footprint> seen = footprints(planes, out.cells.pixel, context);
+  find_open_tops(planes, seen, context);
   // What the noise parts is one surface.
   constexpr double noise_levels = 3;
   out.cells.noise = mean_residual(planes);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "graph/api/error.hpp"
+#include "modules/layout/ceilings_behind.hpp"
 #include "modules/layout/coverage.hpp"
 #include "modules/layout/plan_cells.hpp"
 #include "modules/layout/prism_cut.hpp"
@@ -132,6 +133,7 @@ Prisms::Out Prisms::run(const In& in, const Params& params, Context& context) {
   out.cells.noise = mean_residual(planes);
   const double gap = std::max(params.min_gap, noise_levels * out.cells.noise);
   std::vector<Footprint> seen = footprints(planes, out.cells.pixel, context);
+  find_open_tops(planes, seen, context);
   lean(planes, out.cells.pixel, seen);
   auto surfaces = level_surfaces(planes, seen, out.cells.pixel,
                                  {params.min_level_area, params.min_level_width, params.min_clearance, gap});

@@ -18,6 +18,7 @@ namespace atrium::layout {
 /// from
 ///   a ceiling down to the floor or to furniture; which surfaces and walls look at it from which side; and its borders,
 ///   which cost less where a surface was seen on them.
+/// - Fronts of cupboards are no walls: a ceiling goes on right behind them, over their ends (CeilingsBehind).
 /// - Rooms hang together through borders that no wall covers; slabs and the holes of stairs part storeys, which are
 ///   names for floors of similar height.
 ///

@@ -63,24 +63,52 @@ Raster Raster::coarse(int times) const {
   return result;
 }
 
-bool Raster::has_patch(double patch, double full) const {
+namespace {
+
+/// How many squares hold points, of all below and to the left of each corner of the raster's squares.
+std::vector<int> sums_of(const Raster& raster) {
+  const auto columns = static_cast<std::size_t>(raster.width) + 1;
+  std::vector<int> sums(columns * (static_cast<std::size_t>(raster.height) + 1), 0);
+  for (int y = 0; y < raster.height; ++y)
+    for (int x = 0; x < raster.width; ++x) {
+      const std::size_t i = (static_cast<std::size_t>(y) + 1) * columns + static_cast<std::size_t>(x) + 1;
+      sums[i] = (raster.at(x, y) ? 1 : 0) + sums[i - 1] + sums[i - columns] - sums[i - columns - 1];
+    }
+  return sums;
+}
+
+}  // namespace
+
+bool Raster::is_wide(double patch, double full, double least) const {
   const int side = std::max(1, static_cast<int>(std::lround(patch / pixel)));
   if (side > width || side > height) return false;
   const auto columns = static_cast<std::size_t>(width) + 1;
-  std::vector<int> sums(columns * (static_cast<std::size_t>(height) + 1), 0);  // of all squares below and to the left
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const std::size_t i = (static_cast<std::size_t>(y) + 1) * columns + static_cast<std::size_t>(x) + 1;
-      sums[i] = (at(x, y) ? 1 : 0) + sums[i - 1] + sums[i - columns] - sums[i - columns - 1];
-    }
+  const auto back = static_cast<std::size_t>(side);
+  const auto index = [&](int x, int y) { return static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x); };
+  const std::vector<int> sums = sums_of(*this);
+  std::vector<int> covers(sums.size(), 0);  // changes of how many full squares lie over a place
   for (int y = side; y <= height; ++y)
     for (int x = side; x <= width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x);
-      const auto back = static_cast<std::size_t>(side);
+      const std::size_t i = index(x, y);
       const int count = sums[i] - sums[i - back] - sums[i - back * columns] + sums[i - back * columns - back];
-      if (count >= full * side * side) return true;
+      if (count < full * side * side) continue;
+      ++covers[i - back * columns - back];
+      --covers[i - back * columns];
+      --covers[i - back];
+      ++covers[i];
     }
-  return false;
+  int all = 0, wide = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = index(x, y);
+      if (x > 0) covers[i] += covers[i - 1];
+      if (y > 0) covers[i] += covers[i - columns];
+      if (x > 0 && y > 0) covers[i] -= covers[i - columns - 1];
+      if (!at(x, y)) continue;
+      ++all;
+      wide += covers[i] > 0 ? 1 : 0;
+    }
+  return wide > 0 && wide >= least * all;
 }
 
 Raster rasterize(const std::vector<Eigen::Vector2d>& points, double pixel) {

@@ -29,8 +29,9 @@ struct Raster {
   double area() const;  ///< of the squares that hold points, square metres
   /// The same in squares `times` as wide.
   Raster coarse(int times) const;
-  /// Whether this share of some square of this width (metres) holds points.
-  bool has_patch(double patch, double full = 0.8) const;
+  /// Whether it is as wide as `patch` (metres): squares of that width, of which the share `full` holds points, hold at
+  /// least `least` of its points' squares. A shelf that runs around a corner is wide there only.
+  bool is_wide(double patch, double full = 0.75, double least = 0.3) const;
 };
 
 /// The squares that points fall into.
@@ -44,7 +45,8 @@ struct Footprint {
   Eigen::Vector2d along = Eigen::Vector2d::UnitX();  ///< of walls
   Raster raster;
   double spacing = 0;  ///< edge of the squares that this surface fills, metres: the raster's, or up to four times it
-  std::vector<double> tops;  ///< of walls, per column: the greatest z of its points; less than any z without points
+  std::vector<double> tops;      ///< of walls, per column: the greatest z of its points; less than any z without points
+  std::vector<double> open_top;  ///< of walls, per column: how far a ceiling goes on behind it (find_open_tops), 0 to 1
 };
 /// `from_above`: upright ones as well are seen from above (x, y).
 Footprint footprint(const PlanePrimitive& primitive, const Cloud& cloud, double pixel, bool from_above = false);

@@ -10,11 +10,12 @@ namespace {
 
 using Rings = std::vector<std::vector<Eigen::Vector2d>>;
 
-constexpr double apart = 0.4;       // metres from the outline
-constexpr double off_level = 0.15;  // metres: further from floor or ceiling it is another one
-constexpr double headroom = 1.8;    // metres that another floor or ceiling leaves
-constexpr double faces_up = 0.9;    // cosine: what one can stand on
-constexpr double slanted = 0.5;     // cosine: ceilings may be slopes of up to 60 degrees
+constexpr double apart = 0.4;                               // metres from the outline
+constexpr double off_level = 0.15;                          // metres: further from floor or ceiling it is another one
+constexpr double headroom = 1.8;                            // metres that another floor or ceiling leaves
+constexpr double step_up = 0.25, highest_furniture = 0.95;  // metres over the floor: beds, tubs, tables, worktops
+constexpr double faces_up = 0.9;                            // cosine: what one can stand on
+constexpr double slanted = 0.5;                             // cosine: ceilings may be slopes of up to 60 degrees
 
 Rings rings_of(const BuildingRoom& room) {
   Rings rings(1 + room.holes.size());
@@ -111,7 +112,9 @@ std::vector<RoomColumns> room_columns(const Building& building, const PlanePrimi
       each_column(primitive, *planes.cloud, rooms, [](double z, auto& column) { stack(z, column); });
     else if (up > faces_up)
       each_column(primitive, *planes.cloud, rooms, [](double z, auto& column) {
-        if (z > column.floor + off_level && z < column.ceiling - headroom) column.other_floor = true;
+        if (z <= column.floor + off_level || z >= column.ceiling - headroom) return;
+        const bool furniture = z > column.floor + step_up && z < column.floor + highest_furniture;
+        (furniture ? column.low_level : column.other_floor) = true;
       });
     else if (up < -slanted)
       each_column(primitive, *planes.cloud, rooms, [](double z, auto& column) {

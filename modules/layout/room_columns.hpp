@@ -17,6 +17,7 @@ struct RoomColumns {
     bool apart = false;         ///< far enough from the outline that a wall there is none of the room's own
     std::uint64_t stacked = 0;  ///< a bit per 25 cm of height: points of upright planes
     bool other_floor = false, other_ceiling = false;  ///< a level plane between floor and ceiling, far from both
+    bool low_level = false;                           ///< one at the height of furniture
 
     double height() const { return ceiling - floor; }
     int levels() const { return std::clamp(static_cast<int>(height() / square), 1, 64); }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace atrium::layout {
 namespace {
@@ -14,7 +15,10 @@ struct Doubt {
 
 double percent(double share) { return 100 * share; }
 
-double height_share(double height) {
+/// A hall whose ceiling was seen may be high; a room as high as it is wide may have been scanned in feet.
+double height_share(double height, double area, double ceiling) {
+  constexpr double hall = 0.45, mostly = 0.5;  // of the edge of a square of that area; of the ceiling
+  if (height > 5 && height < hall * std::sqrt(area) && ceiling > mostly) return 1;
   if (height > 8) return ramp(height, 8, 15, 0.5, 0.4);
   if (height > 5) return ramp(height, 5, 8, 1, 0.5);
   return ramp(height, 1.2, 2);
@@ -34,12 +38,12 @@ std::vector<Doubt> doubts_of(const BuildingRoom& room, const RoomEvidence& e) {
       : e.ceiling < hardly                   ? "its ceiling was not seen"
                            : fmt::format("{:.0f} % of its floor and {:.0f} % of its ceiling were seen",
                                          percent(e.floor), percent(e.ceiling)));
-  add(height_share(e.headroom),
+  add(height_share(e.headroom, room.area, e.ceiling),
       fmt::format("it is {:.2f} m high, {}", e.headroom,
                   e.headroom < 2 ? "too low to stand in" : "higher than rooms are: is the unit of length right?"));
-  add(ramp(room.area, 0.5, 1.5), fmt::format("it has {:.2f} m2, less than a room", room.area));
+  add(ramp(room.area, 0.4, 0.9), fmt::format("it has {:.2f} m2, less than a room", room.area));
   add(ramp(e.width, 0.2, 0.4), fmt::format("it is a slit, {:.2f} m wide", e.width));
-  add(ramp(e.inner_walls, 0.06, 0.3, 1, 0.3),
+  add(ramp(e.inner_walls, 0.04, 0.2, 1, 0.3),
       fmt::format("walls from floor to ceiling stand in it, {:.0f} % of its outline long", percent(e.inner_walls)));
   add(ramp(e.other_floor, 0.2, 0.6, 1, 0.3),
       fmt::format("another floor lies over {:.0f} % of its floor", percent(e.other_floor)));
@@ -48,6 +52,9 @@ std::vector<Doubt> doubts_of(const BuildingRoom& room, const RoomEvidence& e) {
   add(ramp(e.open_part, 0.25, 0.5, 1, 0.7),
       fmt::format("no ceiling was seen over a part of it, {:.0f} % of its area: is that outside?",
                   percent(e.open_part)));
+  add(ramp(e.open_top, 0.5, 3, 1, 0.6),
+      fmt::format("{:.1f} m of its walls end below a ceiling that goes on behind them: are they fronts of cupboards?",
+                  e.open_top));
   add(ramp(e.overlap, 0.1, 0.5, 1, 0.2), fmt::format("{:.0f} % of it lie in another room, too", percent(e.overlap)));
   return doubts;
 }

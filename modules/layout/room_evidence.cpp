@@ -19,8 +19,9 @@ constexpr double full_height = 0.6;    // share of the levels that a wall inside
 
 class Measuring {
  public:
-  Measuring(const Building& building, const BuildingRoom& room, const std::vector<FaceGrid>& grids)
-      : building_(building), room_(room), grids_(grids) {}
+  Measuring(const Building& building, const BuildingRoom& room, const std::vector<FaceGrid>& grids,
+            const std::vector<Footprint>& walls)
+      : building_(building), room_(room), grids_(grids), walls_(walls) {}
 
   RoomEvidence run() {
     double seen_walls = 0, all_walls = 0, length = 0, seen_length = 0, standing = 0;
@@ -46,10 +47,30 @@ class Measuring {
     result.contact = seen_length > 0 ? standing / seen_length : 0;
     result.floor = share_of(SurfaceClass::floor);
     result.ceiling = share_of(SurfaceClass::ceiling);
+    for (const auto f : room_.faces) result.open_top += open_top_of(building_.faces[static_cast<std::size_t>(f)]);
     return result;
   }
 
  private:
+  /// Metres of a wall that end below a ceiling which goes on behind it.
+  double open_top_of(const BuildingFace& face) const {
+    if (face.surface != SurfaceClass::wall || face.primitive < 0 ||
+        static_cast<std::size_t>(face.primitive) >= walls_.size())
+      return 0;
+    const Footprint& wall = walls_[static_cast<std::size_t>(face.primitive)];
+    double begin = 1e300, end = -1e300;
+    for (const auto v : face.outline) {
+      const double at = wall.along.dot(building_.vertices[v].head<2>());
+      begin = std::min(begin, at);
+      end = std::max(end, at);
+    }
+    const auto columns = static_cast<int>(wall.open_top.size());
+    double length = 0;
+    for (int c = std::max(0, wall.raster.column(begin)); c < std::min(columns, wall.raster.column(end) + 1); ++c)
+      length += wall.raster.pixel * (wall.open_top[static_cast<std::size_t>(c)] > 0.5 ? 1 : 0);
+    return length;
+  }
+
   struct Column {
     int squares = 0, seen = 0;
     int lowest = -1, highest = -1;  // of the face
@@ -110,6 +131,7 @@ class Measuring {
   const Building& building_;
   const BuildingRoom& room_;
   const std::vector<FaceGrid>& grids_;
+  const std::vector<Footprint>& walls_;
 };
 
 double perimeter(const BuildingRoom& room) {
@@ -158,14 +180,18 @@ double largest_open_piece(const RoomColumns& columns, std::size_t inner) {
 
 void measure_columns(const BuildingRoom& room, const RoomColumns& columns, RoomEvidence& evidence) {
   std::vector<double> heights;
-  std::size_t inner = 0, other_floor = 0, other_ceiling = 0;
+  std::size_t inner = 0, other_floor = 0, low_level = 0, other_ceiling = 0;
   for (const auto& column : columns.columns) {
     if (!column.inside) continue;
     heights.push_back(column.height());
     inner += column.height() > least_wall && is_wall(column) ? 1 : 0;
     other_floor += column.other_floor && !column.floor_seen ? 1 : 0;
+    low_level += column.low_level && !column.other_floor && !column.floor_seen ? 1 : 0;
     other_ceiling += column.other_ceiling && !column.ceiling_seen ? 1 : 0;
   }
+  constexpr double more_than_beds = 5;  // m²
+  if (static_cast<double>(low_level) * RoomColumns::square * RoomColumns::square > more_than_beds)
+    other_floor += low_level;
   const double around = perimeter(room);
   if (around > 0) evidence.width = 2 * room.area / around;
   if (heights.empty()) {
@@ -211,12 +237,12 @@ void measure_overlaps(const std::vector<RoomColumns>& rooms, std::vector<RoomEvi
 }  // namespace
 
 std::vector<RoomEvidence> room_evidence(const Building& building, const PlanePrimitives& planes,
-                                        const std::vector<FaceGrid>& grids) {
+                                        const std::vector<FaceGrid>& grids, const std::vector<Footprint>& walls) {
   const auto columns = room_columns(building, planes, grids);
   std::vector<RoomEvidence> result;
   result.reserve(building.rooms.size());
   for (std::size_t r = 0; r < building.rooms.size(); ++r) {
-    result.push_back(Measuring(building, building.rooms[r], grids).run());
+    result.push_back(Measuring(building, building.rooms[r], grids, walls).run());
     measure_columns(building.rooms[r], columns[r], result.back());
   }
   measure_overlaps(columns, result);

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "modules/layout/face_grid.hpp"
+#include "modules/layout/raster.hpp"
 
 namespace atrium::layout {
 
@@ -19,11 +20,13 @@ struct RoomEvidence {
   double other_floor = 0;  ///< of its floor that was not seen, and over which another floor was
   double other_ceiling = 0;  ///< of its ceiling that was not seen, and under which another ceiling was
   double open_part = 0;      ///< the largest piece of its floor with no ceiling seen over it, where others have one
+  double open_top = 0;       ///< metres of its walls that end below a ceiling which goes on behind them
   double overlap = 0;        ///< of its area that another room has, too
 };
 
-/// One entry per room. Building and planes have one origin, z up.
+/// One entry per room. Building and planes have one origin, z up. `walls`: the planes' footprints with their open tops
+/// (find_open_tops).
 std::vector<RoomEvidence> room_evidence(const Building& building, const PlanePrimitives& planes,
-                                        const std::vector<FaceGrid>& grids);
+                                        const std::vector<FaceGrid>& grids, const std::vector<Footprint>& walls);
 
 }  // namespace atrium::layout

@@ -12,7 +12,8 @@ namespace atrium::layout {
 ///   area), whatever was seen of its floor. In a storey whose ceiling was not scanned (it shows less than three tenths
 ///   of what the floor does), the floor, or what stands on it where that is more, counts for the floor and between
 ///   walls for the ceiling.
-/// - A wall was seen from inside: the cell before it should be inside, the one behind it outside (wall_weight times its
+/// - A wall was seen from inside, and no ceiling goes on right behind it, over its end, as one does behind the front of
+///   a cupboard (CeilingsBehind): the cell before it should be inside, the one behind it outside (wall_weight times its
 ///   area, if it reaches the ceiling), the latter less the more of floor or ceiling was seen there.
 /// - A border between inside and outside should be a wall that looks inside: its area that is none costs
 ///   `smoothness`, and all of it `complexity`. Where both faces of a wall run on beside a cell that shows no ceiling,

@@ -89,6 +89,25 @@ double Shelter::covered(std::size_t floor) const {
   return static_cast<double>(std::count_if(places.begin(), places.end(), under)) / static_cast<double>(places.size());
 }
 
+double Shelter::stooped(std::size_t floor) const {
+  constexpr double least_ceiling = 2, over = 0.3;  // m², which undersides of cupboards do not have; metres
+  const auto places = places_of(footprints_[floor].raster, 40 * most_places);
+  if (places.empty()) return 0;
+  const Plane& plane = planes_.primitives[floor].plane;
+  std::vector<std::size_t> ceilings;
+  for (const auto d : down_)
+    if (footprints_[d].raster.area() >= least_ceiling) ceilings.push_back(d);
+  const auto is_low = [&](const Eigen::Vector2d& p) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const auto d : ceilings)
+      if (footprints_[d].raster.at(p))
+        if (const double z = height_at(planes_.primitives[d].plane, p) - height_at(plane, p); z > over)
+          lowest = std::min(lowest, z);
+    return lowest < min_clearance_;
+  };
+  return static_cast<double>(std::count_if(places.begin(), places.end(), is_low)) / static_cast<double>(places.size());
+}
+
 bool Shelter::faces(const Eigen::Vector2d& from, const Eigen::Vector2d& direction, double height) const {
   double nearest = std::numeric_limits<double>::infinity();
   bool towards = false;

@@ -84,7 +84,7 @@ class Finder {
   /// Whether it holds a square of min_width, or one of three by three of the squares that a sparse surface fills.
   bool is_wide(const Level& l) const {
     const Raster raster = filled(l.primitive);
-    return raster.has_patch(std::max(params_.min_width, raster.pixel > pixel_ ? 3 * raster.pixel : 0), 0.75);
+    return raster.is_wide(std::max(params_.min_width, raster.pixel > pixel_ ? 3 * raster.pixel : 0));
   }
 
   /// What no ceiling covers and no walls enclose is outside. Where nothing is sheltered, nothing is known of it.
@@ -100,7 +100,8 @@ class Finder {
       best = std::max(best, l.sheltered_area());
       if (l.slanted || l.area < least_raised) continue;
       const Shelter::Piece piece = shelter.largest_piece(l.primitive);
-      l.raised = piece.area >= least_raised && piece.walled >= least_walled;
+      l.raised =
+          piece.area >= least_raised && piece.walled >= least_walled && shelter.stooped(l.primitive) <= most_stooped;
     }
     double left_out = 0;
     for (Level& l : levels_) {

@@ -42,7 +42,7 @@ void read(benchmark::State& state, const std::string& extension, bool binary, bo
   const File file(static_cast<std::size_t>(state.range(0)), extension, binary, columns);
   atrium::Context context;
   atrium::io::ReadScan::Params params;
-  params.path.path = file.path;
+  params.path = {{file.path}};
   params.voxel = voxel;
   for (auto _ : state) benchmark::DoNotOptimize(atrium::io::ReadScan::run(params, context));
   state.SetItemsProcessed(state.iterations() * state.range(0));

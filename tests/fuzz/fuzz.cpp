@@ -66,6 +66,7 @@ const std::vector<Target>& targets() {
                                        {"pcd", read_pcd},
                                        {"obj", read_obj},
                                        {"stl", read_stl},
+                                       {"glb", read_glb, 8000},  // nodes may repeat a mesh
                                        {"e57", read_e57, 60},
                                        {"las", read_las, 3000},
                                        {"ptx", read_ptx, 40},

@@ -8,6 +8,7 @@
 #include "modules/io/read_vg.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "tests/support/e57_builder.hpp"
+#include "tests/support/gltf_builder.hpp"
 
 namespace atrium::fuzz {
 namespace {
@@ -43,7 +44,7 @@ void read_scan(const std::filesystem::path& file, std::size_t size) {
   read([&] {
     Context context;
     io::ReadScan::Params params;
-    params.path.path = file;
+    params.path = {{file}};
     params.mesh = io::ReadScan::MeshUse::vertices;
     // A file's length tells nothing: it is as good as a choice.
     if (size % 2 == 1) params.unit = io::ReadScan::Unit::automatic;
@@ -84,6 +85,16 @@ void read_stl(std::string_view bytes) { read_scan_and_mesh("fuzz.stl", bytes); }
 void read_vg(std::string_view bytes) { read_groups("fuzz.vg", bytes); }
 void read_bvg(std::string_view bytes) { read_groups("fuzz.bvg", bytes); }
 
+void read_glb(std::string_view bytes) {
+  const std::size_t end = bytes.find('\0');
+  if (bytes.starts_with("glTF"))
+    read_scan_and_mesh("fuzz.glb", bytes);
+  else if (end == std::string_view::npos)
+    read_scan_and_mesh("fuzz.gltf", bytes);
+  else
+    read_scan_and_mesh("fuzz.glb",
+                       test::glb_file(std::string(bytes.substr(0, end)), std::string(bytes.substr(end + 1))));
+}
 void read_las(std::string_view bytes) { read_scan(put("fuzz.las", bytes), bytes.size()); }
 void read_ptx(std::string_view bytes) { read_scan(put("fuzz.ptx", bytes), bytes.size()); }
 void read_e57(std::string_view bytes) {

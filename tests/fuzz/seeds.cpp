@@ -20,6 +20,7 @@
 #include "modules/types/textures.hpp"
 #include "tests/support/box_building.hpp"
 #include "tests/support/e57_builder.hpp"
+#include "tests/support/gltf_builder.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace atrium {
@@ -120,6 +121,29 @@ void write_scans() {
         "2 2 2 1 1 1 1\n");
 }
 
+/// glTF with nodes, colours, normals, strips and sparse coordinates; as JSON, a zero and the binary part.
+void write_gltf() {
+  test::GltfBuilder builder;
+  builder.add(std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3", 3);
+  builder.add(std::vector<std::uint16_t>{0, 1, 2, 0, 2, 3}, "SCALAR", 1);
+  builder.add(std::vector<std::uint8_t>{255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 9, 9, 9, 255}, "VEC4", 4,
+              R"(,"normalized":true)");
+  builder.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3);
+  builder.add(std::vector<float>{3, 0, 0}, "VEC3", 3);
+  builder.add_accessor(R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","sparse":{"count":1,"indices":)"
+                       R"({"bufferView":1,"byteOffset":2,"componentType":5123},"values":{"bufferView":4}}})");
+  builder.primitives = {R"({"attributes":{"POSITION":0,"COLOR_0":2,"NORMAL":3},"indices":1,"material":0})",
+                        R"({"attributes":{"POSITION":5},"mode":5})"};
+  builder.nodes = R"([{"children":[1,2],"matrix":[2,0,0,0,0,2,0,0,0,0,2,0,9,0,0,1]},)"
+                  R"({"mesh":0,"rotation":[1,0,0,0],"translation":[0,0,3]},{"mesh":0,"scale":[1,1,-1]}])";
+  builder.more = R"(,"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.2,1,1,1]}}])";
+  write("glb", "nodes", builder.json() + std::string(1, '\0') + builder.binary);
+  write("glb", "whole.glb", builder.glb());
+  builder.nodes = R"([{"mesh":0}])";
+  builder.primitives = {R"({"attributes":{"POSITION":0},"mode":0})"};
+  write("glb", "points.gltf", builder.gltf());
+}
+
 /// The same formats as other programs spell them.
 void write_spellings() {
   write("ply", "strips.ply",
@@ -144,10 +168,11 @@ void write_files() {
     io::WriteCloud::run({cloud}, {{"cloud_binary." + format}, true}, context);
     io::WriteCloud::run({cloud}, {{"cloud_text." + format}, false}, context);
   }
-  for (const std::string format : {"ply", "obj", "stl"}) {
+  write_gltf();
+  for (const std::string format : {"ply", "obj", "stl", "glb"}) {
     Context context = writing_to(format);
     io::WriteMesh::run({mesh}, {{"mesh." + format}, true}, context);
-    if (format != "obj") io::WriteMesh::run({mesh}, {{"mesh_text." + format}, false}, context);
+    if (format != "obj" && format != "glb") io::WriteMesh::run({mesh}, {{"mesh_text." + format}, false}, context);
   }
   write_scans();
   write_spellings();

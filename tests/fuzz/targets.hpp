@@ -24,6 +24,7 @@ void read_ply(std::string_view bytes);
 void read_pcd(std::string_view bytes);
 void read_obj(std::string_view bytes);
 void read_stl(std::string_view bytes);
+void read_glb(std::string_view bytes);  ///< .glb, .gltf, or JSON, a zero and the binary part of a .glb
 void read_e57(std::string_view bytes);  ///< without the pages' checksums, which are added
 void read_las(std::string_view bytes);  ///< LAZ as well
 void read_ptx(std::string_view bytes);

@@ -13,8 +13,8 @@
 #include "graph/api/plugin_data.hpp"
 #include "graph/cache/blob.hpp"
 #include "graph/cache/costs.hpp"
-#include "graph/cache/nearest.hpp"
 #include "graph/cache/upkeep.hpp"
+#include "graph/why/nearest.hpp"
 #include "tests/graph/test_nodes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -104,6 +104,14 @@ TEST_F(Keys, DependOnTheContentsOfFilesAndOfFolders) {
   EXPECT_NE(with("a/in"), with("b/in"));
   write_text(folder / "a/in/more.ply", "");
   EXPECT_NE(with("a/in"), before);
+  // A .gltf names files that hold its numbers.
+  write_text(folder / "a/m.gltf", R"({"buffers": [{"uri" : "the%20part.bin"}, {"uri":"data:,x"}, {"uri":"lost"}]})");
+  write_text(folder / "a/the part.bin", "1");
+  const std::string of_one = with("a/m.gltf");
+  write_text(folder / "a/the part.bin", "2");
+  EXPECT_NE(with("a/m.gltf"), of_one);
+  write_text(folder / "a/the part.bin", "1");
+  EXPECT_EQ(with("a/m.gltf"), of_one);
 }
 
 TEST(NodeKeys, TellWhereOneFieldEnds) {

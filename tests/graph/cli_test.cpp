@@ -229,6 +229,21 @@ TEST_F(CommandLine, SchemaHasARuleForEachNodeType) {
   EXPECT_EQ(schema["$defs"]["node"]["allOf"].size(), schema["$defs"]["node"]["properties"]["type"]["enum"].size());
 }
 
+TEST_F(CommandLine, TheSchemaOfSweepsHasTheKeysThatAreRead) {
+  const Json keys = Json::parse(run("schema --sweep").out).at("properties");
+  folder.write("sweep.yaml", "atrium: 1\nsweep: good.yaml\nqqq: 1\n");
+  const std::string said = run("sweep plan sweep.yaml").err;
+  std::istringstream list(said.substr(said.find("keys of a sweep file: ") + 22));
+  std::set<std::string> read;
+  for (std::string word; read.size() < 100 && list >> word && word != "atrium:";) {
+    const bool last = word.back() != ',';
+    read.insert(last ? word : word.substr(0, word.size() - 1));
+    if (last) break;
+  }
+  EXPECT_EQ(read.size(), keys.size()) << said;
+  for (const auto& key : read) EXPECT_TRUE(keys.contains(key)) << key;
+}
+
 TEST_F(CommandLine, HelpGoesToStdout) {
   const Result result = run("check --help");
   EXPECT_EQ(result.code, 0);

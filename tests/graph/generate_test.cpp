@@ -30,7 +30,10 @@ bool has(const Words& words, const std::string& word) {
 
 class Completion : public testing::Test {
  protected:
-  Completion() { write_text(folder / "atrium.bash", generated("bash-completion")); }
+  Completion() {
+    write_text(folder / "atrium.bash",
+               read_text(ATRIUM_SOURCE_DIR "/share/packages/completion.bash") + generated("bash-completion"));
+  }
 
   /// What bash offers behind `atrium WORDS…`; the last word is the one that is being written. bash takes "=" for a
   /// word.

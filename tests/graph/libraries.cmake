@@ -1,5 +1,5 @@
 find_package(rapidcheck REQUIRED)
-list(APPEND libraries rapidcheck nlohmann_json::nlohmann_json)
+list(APPEND libraries rapidcheck nlohmann_json::nlohmann_json atrium_why)
 # Plugins, good and bad, for the tests of the registry and the command line.
 foreach(plugin test stranger misnamed empty lazy lazy-run)
   add_library(test_plugin_${plugin} MODULE ${CMAKE_CURRENT_SOURCE_DIR}/graph/plugins/${plugin}.cpp)

@@ -88,6 +88,38 @@ outputs: {cloud: read.cloud}
     EXPECT_EQ(value(result.pipeline, path, "path"), ParamValue(text(folder.path() / "here/mine.ply")));
 }
 
+TEST_F(PipelineFile, TakesSeveralFilesOnlyInBrackets) {
+  const auto b = folder.write("stations/b.e57", ""), a = folder.write("stations/a.e57", "");
+  const auto odd = folder.write("odd*.e57", "");
+  const auto file = folder.write("p.yaml", R"(atrium: 1
+vars: {scan: }
+nodes:
+  read: {type: test.make}
+  all: {type: test.join, in: {clouds: [read.cloud]}, params: {files: "${scan}"}}
+outputs: {cloud: all.cloud}
+)");
+  const auto files = [&](const std::string& given) {
+    const LoadResult result = load_pipeline(file, {{"scan=" + given, "here", folder.path()}}, registry);
+    return result.errors.empty() ? std::get<std::vector<std::string>>(value(result.pipeline, "all", "files"))
+                                 : std::vector<std::string>{messages(result)};
+  };
+  using Files = std::vector<std::string>;
+  EXPECT_EQ(files("[stations/*.e57]"), (Files{text(a), text(b)}));
+  EXPECT_EQ(files("[stations/b.e57, \"stations/[a]*\"]"), (Files{text(b), text(a)}));
+  EXPECT_EQ(files("[stations]"), (Files{text(folder.path() / "stations")}));
+  EXPECT_EQ(files("stations/a.e57"), (Files{text(a)}));
+  EXPECT_EQ(files("odd*.e57"), (Files{text(odd)}));  // there is a file of that name
+  const auto says = [&](const std::string& given, const std::string& part) {
+    const Files result = files(given);
+    EXPECT_TRUE(result.size() == 1 && result[0].find(part) != std::string::npos) << result[0];
+  };
+  says("stations", "'stations' is a folder: which file is 'files'?");
+  says("stations", "in brackets all its files are taken together: [stations]; a sweep file's `scenes` makes one scene");
+  says("stations/*.e57", "'stations/*.e57' is a pattern");
+  says("[stations/*.las]", "no file fits 'stations/*.las' of 'files'");
+  says("[lost.e57]", "no such file");
+}
+
 TEST_F(PipelineFile, TakesNamesThatBeginWithABracketOrAQuoteFromTheCommandLine) {
   const auto file = folder.write("p.yaml", R"(atrium: 1
 vars: {scan: }

@@ -9,7 +9,7 @@
 #include "graph/api/clocks.hpp"
 #include "graph/api/helper_memory.hpp"
 #include "graph/cache/cache.hpp"
-#include "graph/cache/nearest.hpp"
+#include "graph/cache/records.hpp"
 #include "graph/run/runner.hpp"
 #include "tests/graph/run_nodes.hpp"
 #include "tests/support/pipeline_builder.hpp"

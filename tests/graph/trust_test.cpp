@@ -119,6 +119,20 @@ TEST(Trust, AForgedHashInTheCacheNeitherReadsNorRemovesAFile) {
   }
 }
 
+enum class Colour : std::uint8_t { red, green, blue };
+
+TEST(Trust, AnEnumOfTheCacheHasOneOfItsValues) {
+  const auto read = [](const FlatType* type, const std::string& bytes) {
+    FlatReader in(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size(), {});
+    type->read(in);
+  };
+  EXPECT_NO_THROW(read(flat_type<Colour>(), "\2"));
+  EXPECT_THROW(read(flat_type<Colour>(), "\3"), Error);
+  const std::string two("\2\0\0\0\0\0\0\0", 8);  // how many there are
+  EXPECT_NO_THROW(read(flat_type<std::vector<Colour>>(), two + "\1\2"));
+  EXPECT_THROW(read(flat_type<std::vector<Colour>>(), two + "\1\xc8"), Error);
+}
+
 TEST(Trust, ARunRemovesFilesOfTheEarlierRunOnly) {
   const TemporaryFolder folder;
   PipelineBuilder b;

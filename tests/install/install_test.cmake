@@ -68,7 +68,7 @@ file(READ ${WORK}/example_plugin/CMakeLists.txt text)
 string(REPLACE "NODES lattice" "NODES lattice extent" text "${text}")
 file(WRITE ${WORK}/example_plugin/CMakeLists.txt "${text}")
 build(${WORK}/example_plugin)
-call(0 "extent.z +0.8 m" ${program} run ${here}/two_nodes.yaml --out ${WORK}/run-two)
+call(0 "extent.z +0.8 +m" ${program} run ${here}/two_nodes.yaml --out ${WORK}/run-two)
 
 file(COPY ${here}/wrong_plugin DESTINATION ${WORK})
 build(${WORK}/wrong_plugin)

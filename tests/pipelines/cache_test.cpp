@@ -48,7 +48,7 @@ TEST_F(CacheOfRuns, AChangeRunsWhatDependsOnItAndWhySaysSo) {
   const auto third = atrium({"why", "changed", "third"});
   EXPECT_NE(third.out.find("  after: another value (from second.cloud: ask about that node)\n"), std::string::npos)
       << third.out;
-  EXPECT_NE(atrium({"why", "changed", "first"}).out.find("first was known: computed 20"), std::string::npos);
+  EXPECT_NE(atrium({"why", "changed", "first"}).out.find("first was cached: computed 20"), std::string::npos);
   const auto as_json = json::parse(atrium({"why", "changed", "second", "--json"}).out);
   EXPECT_EQ(as_json["nearest"]["differences"], json::parse(R"([{"field": "number", "then": "1", "now": "4"}])"));
   EXPECT_EQ(atrium({"why", "changed", "secnd"}).exit_code, 1);

@@ -144,6 +144,15 @@ pictures: {sheet.png: {picture: a.png, columns: 3}}
                  ".yaml");
 }
 
+TEST_F(Schemas, MistakesInCorrectionsAreFound) {
+  expect_refused("corrections", read_text(source / "share/examples/corrections.yaml"),
+                 {{"name: Living", "nam: Living", "corrections/0/rename_room"},
+                  {"at: [0, 2.3], by", "at: [0], by", "corrections/1/move_wall/at"},
+                  {"at: [0, 6.4], kind", "kind", "corrections/2/add_opening"},
+                  {"rename_room", "rename_rom", "corrections/0"}},
+                 ".yaml");
+}
+
 TEST_F(Schemas, ManifestsOfWhateverBecomesOfARunAreValid) {
   ASSERT_EQ(atrium({"run", "p.yaml", "--out", "cold"}).exit_code, 0);
   ASSERT_EQ(atrium({"run", "p.yaml", "--out", "warm"}).exit_code, 0);

@@ -47,5 +47,14 @@ TEST(Triangulate, ConvexConcaveHolesAndSlants) {
   EXPECT_TRUE(triangulate({}).triangles.empty());
 }
 
+TEST(Triangulate, RingsThatCrossAreNoError) {
+  // From a fuzzer: a corner was looked up on the wrong side of another one.
+  const Ring outline{{1, 0}, {2, 0}, {2, 2}, {0, 2}}, hole{{0.5, 0.5}, {0.5, 1}, {1, 1}, {0, 0.5}};
+  const auto pieces = triangulate({outline, hole});
+  EXPECT_FALSE(pieces.triangles.empty());
+  for (const auto& t : pieces.triangles)
+    for (const auto v : t) EXPECT_LT(v, pieces.points.size());
+}
+
 }  // namespace
 }  // namespace atrium::triangulate_test

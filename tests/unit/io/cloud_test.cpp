@@ -10,7 +10,7 @@ class CloudFiles : public Files {
   Cloud round_trip(const Cloud& cloud, const std::string& name, bool binary) {
     WriteCloud::run({input(cloud)}, {{name}, binary}, context);
     ReadScan::Params params;
-    params.path.path = path(name);
+    params.path = {{path(name)}};
     return ReadScan::run(params, context).cloud;
   }
 };
@@ -99,7 +99,7 @@ TEST_F(CloudFiles, PlyKeepsWhereEachPointWasSeenFrom) {
   }
   EXPECT_TRUE(host->warnings.empty()) << warnings();
   ReadScan::Params params;
-  params.path.path = path("s.ply");
+  params.path = {{path("s.ply")}};
   params.sensor = ReadScan::SensorUse::none;
   const Cloud none = ReadScan::run(params, context).cloud;
   EXPECT_TRUE(none.sensors.empty() && none.source.empty());
@@ -124,7 +124,7 @@ TEST_F(CloudFiles, SensorsThatMakeNoSenseAreRefusedAndThoseOfOthersSkipped) {
   };
   const auto read = [&](const std::string& text) {
     ReadScan::Params params;
-    params.path.path = file("s.ply", text);
+    params.path = {{file("s.ply", text)}};
     return ReadScan::run(params, context).cloud;
   };
   const std::string two = "element sensor 2\nproperty float x\nproperty float y\nproperty float z\n";

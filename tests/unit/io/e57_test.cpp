@@ -18,7 +18,7 @@ class E57 : public Files {
  protected:
   Cloud read(const std::string& bytes) {
     ReadScan::Params params;
-    params.path.path = file("scan.e57", bytes);
+    params.path = {{file("scan.e57", bytes)}};
     return ReadScan::run(params, context).cloud;
   }
   Cloud read(const E57TestScan& scan) { return read(E57Builder().add(scan).file()); }
@@ -348,7 +348,7 @@ TEST_F(E57, WrittenCloudsComeBackWithTheirPlaces) {
   }
   WriteCloud::run({input(cloud)}, {{"w.e57"}, true}, context);
   ReadScan::Params params;
-  params.path.path = path("w.e57");
+  params.path = {{path("w.e57")}};
   const Cloud back = ReadScan::run(params, context).cloud;
   EXPECT_TRUE(host->warnings.empty()) << warnings();
   ASSERT_EQ(back.size(), cloud.size());

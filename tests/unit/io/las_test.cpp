@@ -12,7 +12,7 @@ class Las : public Files {
  protected:
   Cloud read_file(const std::string& place, ReadScan::Unit unit = ReadScan::Unit::metre) {
     ReadScan::Params params;
-    params.path.path = place;
+    params.path = {{place}};
     params.unit = unit;
     return ReadScan::run(params, context).cloud;
   }

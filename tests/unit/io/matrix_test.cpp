@@ -13,6 +13,7 @@
 #include "modules/io/write_mesh.hpp"
 #include "modules/io/write_vg.hpp"
 #include "tests/support/e57_builder.hpp"
+#include "tests/support/gltf_builder.hpp"
 #include "tests/support/las_builder.hpp"
 
 namespace atrium::io::matrix_test {
@@ -124,6 +125,16 @@ std::string las(const Points& points) {
   return builder.file();
 }
 
+test::GltfBuilder gltf(const Points& points) {
+  std::vector<float> values;
+  for (const auto& p : points)
+    for (const auto& v : p) values.push_back(static_cast<float>(number(v)));
+  test::GltfBuilder builder;
+  builder.add(values, "VEC3", 3);
+  builder.primitives = {R"({"attributes":{"POSITION":0},"mode":0})"};
+  return builder;
+}
+
 struct Format {
   std::string name;
   std::function<std::string(const Points&)> make;
@@ -195,6 +206,12 @@ class Matrix : public Files {
          true, true, pcd_count},
         {"packed.pcd", compressed_pcd, false, "DATA binary_compressed\n", true, true, pcd_count},
         {"binary.stl", binary_stl, false, "", true, false, [](std::string b) { return put_count(std::move(b), 80); }},
+        {"points.glb", [](const Points& p) { return gltf(p).glb(); }, false, "", true, false,
+         [this](const std::string&) {
+           return test::glb_file(replace_all(gltf(five).json(), "count\":5", "count\":1000000000"), gltf(five).binary);
+         }},
+        {"points.gltf", [](const Points& p) { return gltf(p).gltf(); }, false, "", true, false,
+         [](const std::string& t) { return replace_all(t, "count\":5", "count\":1000000000"); }},
         {"scan.e57", [](const Points& p) { return e57(p); }, false, "", true, true,
          [this](const std::string&) { return e57(five, 1000000000); }},
         {"scan.las", las, false, "", false, true, [](std::string b) { return put_count(std::move(b), 107); }},
@@ -205,7 +222,7 @@ class Matrix : public Files {
 
   Cloud read(const std::string& name) {
     ReadScan::Params params;
-    params.path.path = path(name);
+    params.path = {{path(name)}};
     params.mesh = ReadScan::MeshUse::vertices;
     return ReadScan::run(params, context).cloud;
   }

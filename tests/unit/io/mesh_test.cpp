@@ -74,7 +74,7 @@ TEST_F(MeshFiles, ObjReadsAllFormsOfCorners) {
 
 TEST_F(MeshFiles, ObjVerticesMayBeAPointCloudWithColoursAndNormals) {
   ReadScan::Params params;
-  params.path.path = file("p.obj", "v 0 0 0 1 0 0\nvn 0 0 1\nv 1 0 0 0 1 0\nvn 0 1 0\nv 0 1 0 0 0 1\nvn 1 0 0\n");
+  params.path = {{file("p.obj", "v 0 0 0 1 0 0\nvn 0 0 1\nv 1 0 0 0 1 0\nvn 0 1 0\nv 0 1 0 0 0 1\nvn 1 0 0\n")}};
   const Cloud cloud = ReadScan::run(params, context).cloud;
   EXPECT_EQ(cloud.colours, (std::vector<Colour>{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}}));
   ASSERT_EQ(cloud.normals.size(), 3U);
@@ -150,7 +150,7 @@ TEST_F(MeshFiles, AScanOfAMeshIsSampledOnItsFaces) {
   mesh.origin = {500000, 5400000, 0};
   write(mesh, "m.ply");
   ReadScan::Params params;
-  params.path.path = path("m.ply");
+  params.path = {{path("m.ply")}};
   EXPECT_EQ(ReadScan::run(params, context).cloud.size(), 4U);  // as many as vertices
   params.samples = 500;
   const Cloud cloud = ReadScan::run(params, context).cloud;
@@ -169,9 +169,9 @@ TEST_F(MeshFiles, AScanOfAMeshIsSampledOnItsFaces) {
 
 TEST_F(MeshFiles, AMeshWithoutSurfaceCannotBeSampled) {
   ReadScan::Params params;
-  params.path.path = file("flat.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n");
+  params.path = {{file("flat.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n")}};
   EXPECT_CONTAINS(error_of([&] { ReadScan::run(params, context); }), "flat.obj: ");
-  params.path.path = file("nan.obj", "v 0 0 0\nv 1 0 1\nv nan 2 2\nf 1 2 3\n");
+  params.path = {{file("nan.obj", "v 0 0 0\nv 1 0 1\nv nan 2 2\nf 1 2 3\n")}};
   EXPECT_CONTAINS(error_of([&] { ReadScan::run(params, context); }), "nan.obj: ");
 }
 

@@ -21,7 +21,7 @@ std::string literal_lzf(const std::string& data) {
 class Pcd : public Files {
  protected:
   Cloud read(const std::string& name, ReadScan::Params params = {}) {
-    params.path.path = path(name);
+    params.path = {{path(name)}};
     return ReadScan::run(params, context).cloud;
   }
   std::string failure(const std::string& text) {

@@ -3,6 +3,7 @@
 #include "files.hpp"
 #include "modules/io/decode.hpp"
 #include "modules/io/read_geometry.hpp"
+#include "modules/io/read_mesh.hpp"
 #include "modules/io/read_scan.hpp"
 #include "modules/io/write_mesh.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 class Ply : public Files {
  protected:
   Cloud read(const std::string& name, ReadScan::Params params = {}) {
-    params.path.path = path(name);
+    params.path = {{path(name)}};
     return ReadScan::run(params, context).cloud;
   }
   std::string failure(const std::string& text) {
@@ -232,7 +233,7 @@ TEST_F(Ply, NamesWhatIsWrongAndWhere) {
               "end_header\n"),
       "no points");
   EXPECT_CONTAINS(error_of([&] { read("absent.ply"); }), "absent.ply: No such file");
-  EXPECT_CONTAINS(error_of([&] { read("."); }), "Is a directory");
+  EXPECT_CONTAINS(error_of([&] { ReadMesh::run({{path(".")}}, context); }), "Is a directory");
 }
 
 TEST_F(Ply, WildCountsAndTruncationAreErrorsBeforeMemoryIsTaken) {

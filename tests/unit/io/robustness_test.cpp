@@ -73,7 +73,7 @@ class Robustness : public Files {
         return true;
       }
       ReadScan::Params params;
-      params.path.path = place;
+      params.path = {{place}};
       params.mesh = ReadScan::MeshUse::vertices;
       const Cloud cloud = ReadScan::run(params, context).cloud;
       for (const auto& p : cloud.points) EXPECT_TRUE(p.allFinite());

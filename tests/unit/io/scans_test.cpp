@@ -18,7 +18,7 @@ TEST_P(Scans, HasTheRightCounts) {
   const std::string place = std::string(ATRIUM_SOURCE_DIR "/../shared/scans/") + GetParam().file;
   if (!std::filesystem::exists(place)) GTEST_SKIP() << "the real scans are not beside the checkout: " << place;
   ReadScan::Params params;
-  params.path.path = place;
+  params.path = {{place}};
   params.mesh = ReadScan::MeshUse::vertices;
   const Cloud cloud = ReadScan::run(params, context).cloud;
   EXPECT_EQ(cloud.size(), GetParam().vertices);

@@ -323,7 +323,7 @@ TEST_F(Spellings, ScansComeThroughPipes) {
     ASSERT_EQ(::pipe(ends), 0);
     const Fed fed(ends[1], text);
     ReadScan::Params params;
-    params.path.path = "/dev/fd/" + std::to_string(ends[0]);
+    params.path = {{"/dev/fd/" + std::to_string(ends[0])}};
     params.mesh = ReadScan::MeshUse::vertices;
     for (int again = 0; again < 2; ++again)  // who reads it again gets the same
       EXPECT_EQ(ReadScan::run(params, context).cloud.size(), 4U);
@@ -345,10 +345,10 @@ TEST_F(Spellings, PipesThatCannotBeReadSaySo) {
   ASSERT_EQ(::pipe(ends), 0);
   ::close(ends[1]);
   ReadScan::Params params;
-  params.path.path = "/dev/fd/" + std::to_string(ends[0]);
+  params.path = {{"/dev/fd/" + std::to_string(ends[0])}};
   EXPECT_CONTAINS(error_of([&] { ReadScan::run(params, context); }), "nothing came through the pipe");
   ::close(ends[0]);
-  params.path.path = "/dev/zero";
+  params.path = {{"/dev/zero"}};
   EXPECT_CONTAINS(error_of([&] { ReadScan::run(params, context); }), "cannot read /dev/zero: it is a device");
 }
 

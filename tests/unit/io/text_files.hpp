@@ -10,7 +10,7 @@ class TextFiles : public Files {
  protected:
   Cloud scan(const std::string& name, const std::string& text) {
     ReadScan::Params params;
-    params.path.path = file(name, text);
+    params.path = {{file(name, text)}};
     params.mesh = ReadScan::MeshUse::vertices;
     return ReadScan::run(params, context).cloud;
   }

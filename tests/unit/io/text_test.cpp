@@ -10,9 +10,11 @@ class Text : public Files {
  protected:
   Cloud read(const std::string& text, const std::string& name = "a.xyz") {
     ReadScan::Params params;
-    params.path.path = file(name, text);
+    params.path = {{file(name, text)}};
+    params.unit = unit;
     return ReadScan::run(params, context).cloud;
   }
+  ReadScan::Unit unit = ReadScan::Params{}.unit;
   std::string failure(const std::string& text, const std::string& name = "a.xyz") {
     return error_of([&] { read(text, name); });
   }
@@ -190,7 +192,21 @@ TEST_F(Text, PtsOfSeveralScans) {
   EXPECT_TRUE(warned("a.pts:1: 2 points are declared, but 3 lines follow: all are read")) << warnings();
   EXPECT_CONTAINS(failure("2\n1 2 3\n4 5 6\n2\n7 8 9\n", "a.pts"),
                   "a.pts:4: 2 points are declared, but 1 lines follow");
-  EXPECT_CONTAINS(failure("2\n1 2 3\n4 5 6\n1\n7 8\n", "a.pts"), "a.pts:5: 2 values instead of 3");
+  EXPECT_CONTAINS(failure("2\n1 2 3\n4 5 6\n1\n7 8\n", "a.pts"),
+                  "a.pts:5: 2 values a point, where the file's other scans have 3");
+  const Cloud mixed = read("1\n1 2 3 -9\n2\n1 1 1 5 7 8 9\n2 2 2 6 255 0 1\n1\n7 8 9\n", "a.pts");
+  EXPECT_EQ(mixed.intensities, (std::vector<float>{-9, 5, 6, 0}));
+  EXPECT_EQ(mixed.colours, (std::vector<Colour>{{0, 0, 0}, {7, 8, 9}, {255, 0, 1}, {0, 0, 0}}));
+  EXPECT_TRUE(warned("a.pts: 2 of 3 scans have fewer columns than x y z intensity r g b: what they lack is 0"));
+}
+
+TEST_F(Text, NamesMayGiveTheUnit) {
+  unit = ReadScan::Unit::automatic;
+  const std::string rows = "\n0 0 0\n10 0 0\n10 5 0\n0 5 8\n";
+  EXPECT_FLOAT_EQ(read("X [ft] Y [ft] Z [ft]" + rows).points.at(1).x(), 3.048F);
+  EXPECT_TRUE(warned("its unit is 0.3048 m, as the file says")) << warnings();
+  EXPECT_FLOAT_EQ(read("# x(mm) y(mm) z(mm)" + rows).points.at(1).x(), 0.01F);
+  EXPECT_FLOAT_EQ(read("x[m] y[m] z[mm]" + rows).points.at(1).x(), 10);  // they contradict each other
 }
 
 std::string ptx_head(int columns, int rows, const std::string& place, const std::string& matrix) {
@@ -217,6 +233,14 @@ TEST_F(Text, PtxScansStandWhereTheirMatricesSay) {
     EXPECT_NEAR(cloud.origin.x() + cloud.sensors[0].x(), 500000.5, 1e-4);
     EXPECT_NEAR(cloud.origin.y() + cloud.sensors[1].y(), 8, 1e-4);
   }
+}
+
+TEST_F(Text, PtxScansMayLackColours) {
+  const std::string grey = "1 0 0 0.5\n1 1 0 0.5\n", coloured = "0 2 0 0.25 40 50 60\n0 0 1 1 255 0 9\n";
+  const Cloud cloud = read(ptx_head(1, 2, "0 0 0", still) + grey + ptx_head(2, 1, "1 1 1", still) + coloured, "a.ptx");
+  EXPECT_EQ(cloud.colours, (std::vector<Colour>{{0, 0, 0}, {0, 0, 0}, {40, 50, 60}, {255, 0, 9}}));
+  EXPECT_EQ(cloud.intensities, (std::vector<float>{0.5F, 0.5F, 0.25F, 1}));
+  EXPECT_TRUE(warned("1 of 2 scans have fewer columns")) << warnings();
 }
 
 TEST_F(Text, ColoursOfScansMayBeFractions) {

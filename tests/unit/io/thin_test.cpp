@@ -12,7 +12,7 @@ class Thin : public Files {
  protected:
   Cloud read(const std::string& name, double voxel, ReadScan::Unit unit = ReadScan::Unit::metre) {
     ReadScan::Params params;
-    params.path.path = path(name);
+    params.path = {{path(name)}};
     params.voxel = voxel;
     params.unit = unit;
     return ReadScan::run(params, context).cloud;

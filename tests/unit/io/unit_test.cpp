@@ -82,7 +82,7 @@ TEST_F(Units, ReadScanTakesOrFindsTheUnit) {
   cloud.points = in_units(furnished_room(), 0.3048);
   WriteCloud::run({input(cloud)}, {{"feet.ply"}}, context);
   ReadScan::Params params;
-  params.path.path = path("feet.ply");
+  params.path = {{path("feet.ply")}};
   const auto height = [&] { return bounds_of(ReadScan::run(params, context).cloud.points, context).extent().z(); };
   EXPECT_NEAR(height(), 2.5 / 0.3048, 0.1);  // metres unless it is asked to find out
   params.unit = ReadScan::Unit::automatic;
@@ -98,11 +98,11 @@ TEST_F(Units, ReadScanTakesOrFindsTheUnit) {
 
 TEST_F(Units, ObjFilesUsuallyHaveYUp) {
   ReadScan::Params params;
-  params.path.path = path("points.obj");
-  std::ofstream(params.path.path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  params.path = {{path("points.obj")}};
+  std::ofstream(params.path.front().path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
   EXPECT_TRUE(ReadScan::run(params, context).cloud.y_up);
-  params.path.path = path("points.xyz");
-  std::ofstream(params.path.path) << "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  params.path = {{path("points.xyz")}};
+  std::ofstream(params.path.front().path) << "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
   const Cloud cloud = ReadScan::run(params, context).cloud;
   EXPECT_FALSE(cloud.y_up);
   EXPECT_EQ(cloud.unit, 1);

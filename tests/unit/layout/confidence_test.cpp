@@ -166,7 +166,9 @@ TEST(Confidence, AWallAcrossARoomIsADoubtAndACupboardIsNone) {
 
 TEST(Confidence, ALevelThatWasTakenForAnotherIsADoubt) {
   // The floor that was seen lies half a metre higher, the ceiling half a metre lower than the building has them.
-  Scene raised;
+  Scene raised, bed = shown({false});
+  bed.floor(1, 1, 3, 3, 0.5).floor(0, 0, 4, 1).floor(3, 1, 4, 3).floor(0, 1, 1, 3);
+  EXPECT_FALSE(measured(box(), bed).doubts("another floor lies over"));
   raised.floor(0, 0, 4, 3, 0.5).ceiling(0, 0, 4, 3).walls({{0, 0}, {4, 0}, {4, 3}, {0, 3}});
   EXPECT_TRUE(measured(box(), raised).doubts("another floor lies over"));
   Scene lowered;
@@ -204,6 +206,15 @@ TEST(Confidence, RoomsWithoutAWayInAreNamed) {
   ASSERT_EQ(closed.building.doubts.size(), 1U);
   EXPECT_EQ(closed.building.doubts[0], "no door or passage was found into 2 of 2 rooms (room 1; room 2)");
   EXPECT_TRUE(closed.warnings->mention("no door or passage"));
+  building.openings.clear();
+  EXPECT_TRUE(judged(building, scene).warnings->mention("no door or passage was found into 2 of 2 rooms"));
+}
+
+TEST(Confidence, WallsThatEndBelowACeilingThatGoesOnAreDoubted) {
+  Scene scene = shown({true, true, "south east north"});
+  scene.wall(0, 3, 0, 0, 0, 2.3).ceiling(-0.3, 0, 0, 3);
+  EXPECT_TRUE(measured(box(), scene).doubts("3.0 m of its walls end below a ceiling that goes on behind them"));
+  EXPECT_FALSE(measured(box(), shown({})).doubts("below a ceiling"));
 }
 
 TEST(Confidence, FloorUnderACeilingThatNoRoomHoldsIsWarnedOf) {
@@ -218,6 +229,24 @@ TEST(Confidence, FloorUnderACeilingThatNoRoomHoldsIsWarnedOf) {
   Scene small = shown({});
   small.ceiling(1, 1, 3, 2, 0.7).floor(5, 0, 6, 1).ceiling(5, 0, 6, 1);
   EXPECT_DOUBLE_EQ(judged(box(), small).building.confidence, 1);
+}
+
+TEST(Confidence, FloorBetweenWallsBesideTheRoomsIsWarnedOfAndATerraceIsNot) {
+  // What is seen of the next room through its door: floor, and the wall opposite up to the door's lintel.
+  const auto beyond = [](double floor, double wall_top, double z = 0) {
+    Scene scene = shown({});
+    scene.floor(4.1, 1, 4.1 + floor, 2, z);
+    if (wall_top > 0) scene.wall(4.1 + floor, 1, 4.1 + floor, 2, z, wall_top);
+    return judged(box(), scene);
+  };
+  const auto room = beyond(3, 2);
+  EXPECT_TRUE(room.warnings->mention("m2 of floor between walls are in no room (the largest piece"));
+  EXPECT_GT(room.building.confidence, 0.75);
+  EXPECT_LT(room.building.confidence, 0.99);
+  EXPECT_FALSE(beyond(3, 0).warnings->mention("between walls")) << "a terrace";
+  EXPECT_FALSE(beyond(3, 1.1).warnings->mention("between walls")) << "a terrace with a parapet";
+  EXPECT_FALSE(beyond(3, 2, -0.3).warnings->mention("between walls")) << "the ground outside";
+  EXPECT_FALSE(beyond(0.6, 2).warnings->mention("between walls")) << "a threshold";
 }
 
 TEST(Confidence, AHallWhoseCeilingIsHigherThanItsRoomIsWarnedOf) {

@@ -161,6 +161,23 @@ TEST(Openings, WhatTheOtherSideOfTheWallShowsIsNoHole) {
   EXPECT_TRUE(laid_out(seen_from(scene.planes(), in_both, 4.06)).building.openings.empty());
 }
 
+/// Two rooms with the same hole in the wall between them, of whose reveal the sides and the top were seen.
+Scene joined_rooms(const AlignedBox2d& hole) {
+  Scene scene = two_rooms(hole, hole);
+  const double width = hole.sizes().x(), height = hole.max().y();
+  for (const double y : {hole.min().x(), hole.max().x()}) scatter(scene, {4, y, 0}, {0, 0, height}, {0.12, 0, 0});
+  scatter(scene, {4, hole.min().x(), height}, {0, width, 0}, {0.12, 0, 0});
+  return scene;
+}
+
+TEST(Openings, ALowHoleAtTheFloorIsNoDoorOrADoubt) {
+  EXPECT_FALSE(laid_out(joined_rooms(door).planes()).warnings->mention("doors are lower"));
+  const auto low = laid_out(joined_rooms({Vector2d(1, 0), Vector2d(1.9, 1.2)}).planes());
+  EXPECT_EQ(low.building.openings.size(), 1U);
+  EXPECT_TRUE(low.warnings->mention("1 doors are lower than 1.50 m, the lowest 1.20 m"));
+  EXPECT_TRUE(laid_out(joined_rooms({Vector2d(1, 0), Vector2d(1.5, 1.2)}).planes()).building.openings.empty());
+}
+
 TEST(Openings, ADoorWhoseFootIsHiddenReachesTheFloor) {
   // A chest stands before it on both sides.
   Scene scene = two_rooms(door, door);

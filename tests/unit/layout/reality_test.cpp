@@ -66,6 +66,45 @@ TEST(Reality, ATerraceBehindGlassIsOutsideHoweverWalled) {
   EXPECT_NEAR(layout.building.rooms[0].area, 20, 0.1);
 }
 
+/// A room of 5 x 4 m with a cupboard along most of its wall at x = 0, 60 cm deep and 2.5 m long, which ends `gap` below
+/// the ceiling: nothing is seen of the floor behind its front, and of wall and ceiling what may be seen over it.
+Scene fitted_room(double gap) {
+  Scene scene;
+  scene.spacing = 0.025;
+  const double top = 2.5 - gap;
+  scene.ceiling(0, 0, 5, 4, 2.5, [](const auto& p) { return p.x() > 0.2 || p.y() > 2.5; });
+  scene.floor(0, 0, 5, 4, 0, [](const auto& p) { return p.x() > 0.6 || p.y() > 2.5; });
+  scene.wall(0.6, 2.5, 0.6, 0, 0, top).wall(0, 2.5, 0.6, 2.5, 0, top).wall(0, 4, 0, 2.5).wall(0, 2.5, 0, 0, 2.3, 2.5);
+  scene.wall(0.6, 0, 5, 0).wall(5, 0, 5, 4).wall(5, 4, 0, 4).wall(0, 0, 0.6, 0, top, 2.5);
+  return scene;
+}
+
+TEST(Reality, ACupboardThatEndsBelowTheCeilingIsNoWall) {
+  for (const double gap : {0.15, 0.25}) {
+    const auto layout = laid_out(fitted_room(gap).planes());
+    ASSERT_EQ(layout.building.rooms.size(), 1U);
+    EXPECT_NEAR(layout.building.rooms[0].area, 20, 0.05) << gap;
+  }
+}
+
+TEST(Reality, AWorktopIsNoRaisedFloorAndAShelfInACornerNoCeiling) {
+  // Worktops along three walls: walls stand around most of them, as they do around a raised room.
+  Scene kitchen;
+  add_box(kitchen, 0, 0, 4, 3);
+  kitchen.floor(0, 0, 4, 3, 0.9, [](const auto& p) { return p.x() < 0.65 || p.x() > 3.35 || p.y() < 0.65; });
+  kitchen.wall(0.65, 3, 0.65, 0.65, 0, 0.9).wall(0.65, 0.65, 3.35, 0.65, 0, 0.9).wall(3.35, 0.65, 3.35, 3, 0, 0.9);
+  auto layout = laid_out(kitchen.planes());
+  ASSERT_EQ(layout.building.rooms.size(), 1U);
+  EXPECT_NEAR(layout.building.rooms[0].volume, 30, 0.05);
+  // The underside of a shelf around a corner fills most of a square of 80 cm there.
+  Scene store;
+  add_box(store, 0, 0, 4, 3);
+  store.ceiling(0, 0, 4, 3, 1.95, [](const auto& p) { return p.x() < 0.45 || p.y() < 0.45; });
+  layout = laid_out(store.planes());
+  ASSERT_EQ(layout.building.rooms.size(), 1U);
+  EXPECT_NEAR(layout.building.rooms[0].volume, 30, 0.05);
+}
+
 TEST(Reality, ABeamUnderTheCeilingPartsNoRoom) {
   Scene scene;
   add_box(scene, 0, 0, 6, 4, 0, 3.8);

@@ -127,7 +127,7 @@ void expect_scans_to_fit(const std::string& first, const std::string& second, Co
   Inputs<Cloud> clouds;
   for (const auto& name : {first, second}) {
     io::ReadScan::Params read;
-    read.path.path = (folder / name).string();
+    read.path = {{(folder / name).string()}};
     clouds.push_back(input(io::ReadScan::run(read, context).cloud));
   }
   Gicp::Params params;

@@ -1,1 +1,1 @@
-list(APPEND libraries atrium_geometry TBB::tbb)
+list(APPEND libraries atrium_geometry atrium_io TBB::tbb)

@@ -1,0 +1,454 @@
+#include "modules/building/correct.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "houses.hpp"
+#include "modules/building/corrections_file.hpp"
+#include "modules/building/room_shell.hpp"
+#include "modules/layout/mesh.hpp"
+#include "modules/metric/validity.hpp"
+#include "modules/types/building_rules.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "writing_host.hpp"
+
+namespace atrium::building::correct_test {
+namespace {
+
+using test::BoxBuilding;
+using test::House;
+
+/// Two rooms, 4 m × 3 m and 2.88 m × 3 m, 2.5 m high, with 12 cm of wall from x = 4; faces 0 … 5 and 6 … 11 are floor,
+/// ceiling, and the walls at y0, x1, y1, x0.
+class Corrections : public ::testing::Test {
+ protected:
+  test::TemporaryFolder folder;
+  std::shared_ptr<test::WritingHost> host = std::make_shared<test::WritingHost>();
+
+  Building corrected(const Building& building, const std::string& lines, const Transform& transform = {},
+                     double unit = 1) {
+    const auto file = folder / "corrections.yaml";
+    test::write_text(file, "atrium_corrections: 1\ncorrections:\n" + lines);
+    Context context{1, host};
+    Cloud cloud;
+    cloud.unit = unit;
+    const auto out = Correct::run({input(building), input(transform), input(cloud)}, {{{file.string()}}}, context);
+    check(*out.building);
+    expect_closed_rooms(out.building);
+    return *out.building;
+  }
+  /// Each room's surface is one closed 2-manifold without crossings.
+  static void expect_closed_rooms(const std::shared_ptr<const Building>& building) {
+    Context context;
+    const Mesh shell = layout::Mesh::run({building, {}}, {}).shell;
+    metric::Validity::Params params;
+    params.listed = 0;
+    for (std::size_t r = 0; r < building->rooms.size(); ++r) {
+      Mesh mesh = shell;
+      mesh.triangles.clear();
+      for (std::size_t t = 0; t < shell.triangles.size(); ++t)
+        if (building->faces[static_cast<std::size_t>(shell.primitives[t])].room == static_cast<std::int32_t>(r))
+          mesh.triangles.push_back(shell.triangles[t]);
+      mesh.classes.resize(mesh.triangles.size());
+      mesh.storeys.resize(mesh.triangles.size());
+      mesh.primitives.resize(mesh.triangles.size());
+      for (const auto& m : metric::Validity::run({input(mesh)}, params, context).metrics.values) {
+        if (m.name == "validity.components" || m.name == "validity.components.watertight") {
+          EXPECT_EQ(m.value, 1) << m.name;
+        }
+        for (const char* none : {"degenerate_faces", "edges.boundary", "edges.non_manifold", "edges.misoriented",
+                                 "vertices.non_manifold", "self_intersections.crossing"}) {
+          if (m.name != std::string("validity.") + none) continue;
+          EXPECT_EQ(m.value, 0) << m.name;
+        }
+      }
+    }
+  }
+  /// What the error says after the file's name, and its help.
+  std::string refused(const std::string& lines, const Building& building = BoxBuilding::two_rooms()) {
+    try {
+      corrected(building, lines);
+    } catch (const Error& error) {
+      const std::string text = error.what();
+      const std::string name = (folder / "corrections.yaml").string() + ":";
+      EXPECT_EQ(text.substr(0, name.size()), name);
+      return text.substr(name.size()) + " | " + error.help();
+    }
+    return "nothing was refused";
+  }
+};
+
+const BuildingRoom& room(const Building& building, const std::string& name) {
+  const auto found =
+      std::find_if(building.rooms.begin(), building.rooms.end(), [&](const auto& r) { return r.name == name; });
+  if (found == building.rooms.end()) throw std::runtime_error("no room " + name);
+  return *found;
+}
+
+void expect_room(const Building& building, const std::string& name, double area, double volume, std::size_t faces) {
+  const BuildingRoom& of = room(building, name);
+  EXPECT_NEAR(of.area, area, 1e-9) << name;
+  EXPECT_NEAR(of.volume, volume, 1e-9) << name;
+  EXPECT_NEAR(of.height, volume / area, 1e-9) << name;
+  EXPECT_EQ(of.faces.size(), faces) << name;
+  std::vector<BuildingFace> own;
+  for (const auto f : of.faces) {
+    own.push_back(building.faces[static_cast<std::size_t>(f)]);
+    EXPECT_EQ(&building.rooms[static_cast<std::size_t>(own.back().room)], &of);
+    for (const auto v : own.back().outline)
+      EXPECT_NEAR(own.back().plane.signed_distance(building.vertices[v]), 0, 1e-9) << name << ", face " << f;
+  }
+  EXPECT_TRUE(is_closed(own)) << name;
+  EXPECT_EQ(parts_of(own), 1U) << name;
+}
+
+void expect_box(const std::vector<Eigen::Vector3d>& places, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  Eigen::AlignedBox3d box;
+  for (const auto& p : places) box.extend(p);
+  EXPECT_LT((box.min() - low).norm(), 1e-9) << box.min().transpose();
+  EXPECT_LT((box.max() - high).norm(), 1e-9) << box.max().transpose();
+}
+
+bool begins_with(const std::string& text, const std::string& beginning) { return text.rfind(beginning, 0) == 0; }
+
+bool says(const BuildingRoom& room, const std::string& text) {
+  return std::find(room.doubts.begin(), room.doubts.end(), "corrected by hand: " + text) != room.doubts.end();
+}
+
+TEST_F(Corrections, WithoutAFileTheBuildingIsHandedOn) {
+  Context context{1, host};
+  const auto building = input(BoxBuilding::two_rooms());
+  EXPECT_EQ(Correct::run({building, {}, {}}, {}, context).building, building);
+}
+
+TEST_F(Corrections, ARoomIsRenamedAndKnownByBothNames) {
+  const Building result = corrected(BoxBuilding::two_rooms(),
+                                    "  - rename_room: {room: room 1, name: Küche \"gross\"}\n"
+                                    "  - set_ceiling: {room: room 1, height: 2.6}\n"
+                                    "  - set_ceiling: {room: Küche \"gross\", height: 2.7 m}\n");
+  expect_room(result, "Küche \"gross\"", 12, 12 * 2.7, 6);
+  expect_room(result, "room 2", 8.64, 21.6, 6);
+}
+
+TEST_F(Corrections, AWallMovesAndTheWallGetsThinner) {
+  const Building result = corrected(BoxBuilding::two_rooms(), "  - move_wall: {room: room 1, face: 3, by: 5 cm}\n");
+  expect_room(result, "room 1", 4.05 * 3, 4.05 * 3 * 2.5, 6);
+  expect_room(result, "room 2", 8.64, 21.6, 6);
+  EXPECT_TRUE(says(room(result, "room 1"), "face 3 moved by 0.050 m"));
+  EXPECT_TRUE(room(result, "room 2").doubts.empty());
+  ASSERT_EQ(result.walls.size(), 1U);
+  EXPECT_NEAR(result.walls[0].thickness, 0.07, 1e-9);
+  EXPECT_NEAR(result.openings[0].thickness, 0.07, 1e-9);
+  expect_box(result.openings[0].outline_a, {4.05, 0.5, 0}, {4.05, 1.4, 2.1});
+  expect_box(result.openings[0].outline_b, {4.12, 0.5, 0}, {4.12, 1.4, 2.1});
+  expect_box(room(result, "room 1").outline, {0, 0, 0}, {4.05, 3, 0});
+  EXPECT_EQ(result.faces[3].primitive, 3);
+  EXPECT_EQ(result.faces[3].observed, 0.9);
+  EXPECT_NEAR(result.storeys[0].height, 2.5, 1e-9);
+}
+
+TEST_F(Corrections, BothFacesOfAWallMoveTogether) {
+  const Building result =
+      corrected(BoxBuilding::two_rooms(), "  - move_wall: {room: room 1, wall: wall 2, by: -0.5, both: true}\n");
+  expect_room(result, "room 1", 3.5 * 3, 3.5 * 3 * 2.5, 6);
+  expect_room(result, "room 2", 3.38 * 3, 3.38 * 3 * 2.5, 6);
+  ASSERT_EQ(result.walls.size(), 1U);
+  EXPECT_NEAR(result.walls[0].thickness, 0.12, 1e-9);
+  expect_box(result.openings[0].outline_b, {3.62, 0.5, 0}, {3.62, 1.4, 2.1});
+  EXPECT_TRUE(says(room(result, "room 1"), "wall 2 moved by -0.500 m"));
+  EXPECT_TRUE(says(room(result, "room 2"), "wall 2 of room 1 moved by -0.500 m with the wall"));
+}
+
+TEST_F(Corrections, PlacesAreInTheScansFrameAndUnit) {
+  // The scan is turned by 90 degrees about z and in feet, and its zero is (10, 20) in the building.
+  Transform transform;
+  transform.rotation = Eigen::AngleAxisd(EIGEN_PI / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  transform.translation = {10, 20, 3};
+  Building building = BoxBuilding::two_rooms();
+  building.origin = {10, 20, 3};
+  // (0, 1.5) of the building's room is (1.5, 0) of the scan.
+  const Building result =
+      corrected(building, "  - move_wall: {room: room 1, at: [" + std::to_string(1.5 / 0.3048) + ", 0.1], by: 1 ft}\n",
+                transform, 0.3048);
+  expect_room(result, "room 1", 4.3048 * 3, 4.3048 * 3 * 2.5, 6);
+  expect_box(room(result, "room 1").outline, {-0.3048, 0, 0}, {4, 3, 0});
+}
+
+TEST_F(Corrections, CeilingsAndFloorsMoveWithTheFeetOfDoors) {
+  const Building result = corrected(BoxBuilding::two_rooms(),
+                                    "  - set_ceiling: {room: room 1, height: 2.8 m}\n"
+                                    "  - set_ceiling: {room: room 2, by: -10 cm}\n"
+                                    "  - set_floor: {room: room 1, level: 2 cm}\n");
+  expect_room(result, "room 1", 12, 12 * 2.78, 6);
+  expect_room(result, "room 2", 8.64, 8.64 * 2.4, 6);
+  expect_box(result.openings[0].outline_a, {4, 0.5, 0.02}, {4, 1.4, 2.1});
+  expect_box(result.openings[0].outline_b, {4.12, 0.5, 0}, {4.12, 1.4, 2.1});
+  EXPECT_NEAR(result.storeys[0].elevation, 0.02, 1e-9) << "most of the storey's floor lies there";
+  EXPECT_NEAR(result.storeys[0].height, (12 * 2.78 + 8.64 * 2.4) / 20.64, 1e-9);
+  EXPECT_TRUE(says(room(result, "room 1"), "ceiling set to a height of 2.800 m"));
+}
+
+TEST_F(Corrections, DoorsAndWindowsAreAddedChangedAndDropped) {
+  const Building result = corrected(
+      BoxBuilding::two_rooms(),
+      "  - add_opening: {room: room 1, face: 3, kind: door, corner: left, distance: 20 cm, width: 0.8, height: 2 m}\n"
+      "  - add_opening: {room: room 2, at: [7.1, 1.5], kind: window, corner: right, distance: 0.4, width: 1.2, height: "
+      "1.1, sill: 90 cm}\n"
+      "  - change_opening: {opening: door 1, width: 1 m, kind: passage}\n"
+      "  - drop_opening: {opening: window 1}\n");
+  ASSERT_EQ(result.openings.size(), 3U);
+  const BuildingOpening &passage = result.openings[0], &door = result.openings[1], &window = result.openings[2];
+  EXPECT_EQ(passage.kind, "passage");
+  expect_box(passage.outline_a, {4, 0.45, 0}, {4, 1.45, 2.1});
+  expect_box(passage.outline_b, {4.12, 0.45, 0}, {4.12, 1.45, 2.1});
+  // Seen from room 1 the left end of the wall x = 4 is at y = 3.
+  EXPECT_EQ(door.kind, "door");
+  EXPECT_EQ(door.room_a, 0);
+  EXPECT_EQ(door.room_b, 1);
+  EXPECT_EQ(door.face_b, 11);
+  EXPECT_NEAR(door.thickness, 0.12, 1e-9);
+  expect_box(door.outline_a, {4, 2.0, 0}, {4, 2.8, 2});
+  expect_box(door.outline_b, {4.12, 2.0, 0}, {4.12, 2.8, 2});
+  // And the right end of x = 7 seen from room 2 is at y = 0.
+  EXPECT_EQ(window.room_a, 1);
+  EXPECT_EQ(window.room_b, -1);
+  expect_box(window.outline_a, {7, 0.4, 0.9}, {7, 1.6, 2.0});
+  EXPECT_TRUE(says(result.rooms[0], "door of 0.80 m × 2.00 m added in face 3"));
+  EXPECT_TRUE(says(result.rooms[1], "door of 0.80 m × 2.00 m added in face 3"));
+  EXPECT_TRUE(says(result.rooms[0], "window 1 dropped"));
+  EXPECT_TRUE(says(result.rooms[1], "door 1 changed to 1.00 m × 2.10 m, a passage"));
+}
+
+TEST_F(Corrections, AnOpeningMovesAlongItsWallSeenFromARoom) {
+  const Building result =
+      corrected(BoxBuilding::two_rooms(), "  - change_opening: {opening: door 1, room: room 2, by: 30 cm}\n");
+  // Seen from room 2 the right of x = 4.12 is where y grows.
+  expect_box(result.openings[0].outline_a, {4, 0.8, 0}, {4, 1.7, 2.1});
+  expect_box(result.openings[0].outline_b, {4.12, 0.8, 0}, {4.12, 1.7, 2.1});
+  EXPECT_EQ(result.openings[0].room_a, 0);
+}
+
+TEST_F(Corrections, TheWallBetweenMergedRoomsGoes) {
+  Building building = BoxBuilding::two_rooms();
+  building.rooms[0].confidence = 1;
+  building.rooms[1].confidence = 0.5;
+  building.rooms[1].doubts = {"its floor was not seen"};
+  const Building result = corrected(building, "  - merge_rooms: {rooms: [room 1, room 2], name: Hall}\n");
+  ASSERT_EQ(result.rooms.size(), 1U);
+  expect_room(result, "Hall", 21, 52.5, 6);
+  EXPECT_EQ(room(result, "Hall").outline.size(), 4U);
+  EXPECT_NEAR(room(result, "Hall").confidence, (12 + 0.5 * 8.64) / 20.64, 1e-9);
+  EXPECT_EQ(room(result, "Hall").doubts.front(), "its floor was not seen");
+  EXPECT_TRUE(says(room(result, "Hall"), "merged from room 1 and room 2"));
+  ASSERT_EQ(result.openings.size(), 1U) << "the door went with its wall";
+  EXPECT_EQ(result.openings[0].kind, "window");
+  EXPECT_TRUE(result.walls.empty());
+  // Nobody saw the strip of floor where the wall stood.
+  const BuildingFace& floor = result.faces[static_cast<std::size_t>(room(result, "Hall").faces[0])];
+  EXPECT_EQ(floor.surface, SurfaceClass::floor);
+  EXPECT_NEAR(floor.observed, 0.9 * 20.64 / 21, 1e-9);
+}
+
+TEST_F(Corrections, OnlyTheCommonPartOfAWallGoes) {
+  BoxBuilding b;
+  b.room(0, 0, 4, 3);
+  b.room(4.1, 1, 6, 4, 0.01, 2.3);  // a centimetre higher, with a lower ceiling, half a metre further on
+  const Building result = corrected(b.building, "  - merge_rooms: {rooms: [room 1, room 2]}\n");
+  ASSERT_EQ(result.rooms.size(), 1U);
+  // Of the wall the common 2 m go, floor to the lower ceiling.
+  const double area = 12 + 1.9 * 3 + 0.1 * 2, volume = 30 + 1.9 * 3 * 2.3 + 0.1 * 2 * 2.3;
+  expect_room(result, "room 1", area, volume, 11);
+}
+
+TEST_F(Corrections, ARoomIsSplitWithAndWithoutAWall) {
+  const Building open = corrected(BoxBuilding::two_rooms(),
+                                  "  - split_room: {room: room 1, from: [3, 1], to: [3, 2], names: [West, East]}\n");
+  ASSERT_EQ(open.rooms.size(), 3U);
+  expect_room(open, "West", 9, 22.5, 6);
+  expect_room(open, "East", 3, 7.5, 6);
+  const Building parted = corrected(BoxBuilding::two_rooms(),
+                                    "  - split_room: {room: room 1, from: [3, 1], to: [3, 2], names: [West, East], "
+                                    "thickness: 10 cm}\n"
+                                    "  - merge_rooms: {rooms: [East, room 2], name: Right}\n");
+  expect_room(parted, "West", 2.95 * 3, 2.95 * 7.5, 6);
+  expect_room(parted, "Right", (7 - 3.05) * 3, (7 - 3.05) * 7.5, 6);
+  ASSERT_EQ(parted.walls.size(), 1U);
+  EXPECT_NEAR(parted.walls[0].thickness, 0.1, 1e-9);
+  ASSERT_EQ(parted.openings.size(), 1U);
+  EXPECT_EQ(parted.rooms[static_cast<std::size_t>(parted.openings[0].room_a)].name, "West");
+  EXPECT_TRUE(says(room(parted, "West"), "split off from room 1"));
+}
+
+TEST_F(Corrections, ASplitRoomIsMergedAgain) {
+  const Building result = corrected(BoxBuilding::two_rooms(),
+                                    "  - split_room: {room: room 1, from: [1, 1], to: [3, 2], names: [A, B]}\n"
+                                    "  - merge_rooms: {rooms: [A, B], name: room 1}\n");
+  expect_room(result, "room 1", 12, 30, 6);
+  EXPECT_EQ(result.openings.size(), 2U);
+}
+
+/// A room 4 m × 3 m whose wall y = 3 has a pilaster (or, with a negative depth, a niche) from x = 1 to 1.5.
+Building with_pilaster(double depth) {
+  House house;
+  House::Plan plan;
+  plan.plan = {{0, 0}, {4, 0}, {4, 3}, {1.5, 3}, {1.5, 3 - depth}, {1, 3 - depth}, {1, 3}, {0, 3}};
+  plan.ceilings = {{0, 1, 2, 3, 4, 5, 6, 7}};
+  house.room(plan, 0, [](double, double) { return 2.5; });
+  return house.building;
+}
+
+TEST_F(Corrections, APilasterAndANicheAreDropped) {
+  for (const double depth : {0.3, -0.3}) {
+    const Building before = with_pilaster(depth);
+    EXPECT_NEAR(before.rooms[0].area, 12 - 0.5 * depth, 1e-9);
+    // Face 2 + i is the wall from corner i to the next.
+    const Building result = corrected(before, "  - drop_face: {room: room 1, face: 6}\n");
+    expect_room(result, "room 1", 12, 30, 6);
+    EXPECT_TRUE(says(result.rooms[0], "face 6 dropped"));
+  }
+}
+
+TEST_F(Corrections, NeighboursOfADroppedFaceAreExtendedUntilTheyMeet) {
+  House house;
+  House::Plan plan;
+  plan.plan = {{0, 0}, {3, 0}, {4, 1}, {4, 3}, {0, 3}};
+  plan.ceilings = {{0, 1, 2, 3, 4}};
+  house.room(plan, 0, [](double, double) { return 2.5; });
+  const Building result = corrected(house.building, "  - drop_face: {room: room 1, at: [3.5, 0.5]}\n");
+  expect_room(result, "room 1", 12, 30, 6);
+}
+
+TEST_F(Corrections, AColumnIsDropped) {
+  House house;
+  House::Plan plan = House::rectangle(0, 0, 4, 3);
+  plan.column = {{1, 1}, {1.4, 1}, {1.4, 1.4}, {1, 1.4}};
+  house.room(plan, 0, [](double, double) { return 2.5; });
+  const Building result = corrected(house.building, "  - drop_face: {room: room 1, face: 7}\n");
+  expect_room(result, "room 1", 12, 30, 6);
+  EXPECT_TRUE(result.rooms[0].holes.empty());
+}
+
+TEST_F(Corrections, UnderSlopesWallsMoveToo) {
+  House house;
+  house.room(House::gable(0, 0, 4, 5), 0, [](double x, double) { return 1 + std::min(x, 4 - x); });
+  // The gable wall y = 5 is face 5 (two ceilings come before the walls).
+  const Building longer = corrected(house.building, "  - move_wall: {room: room 1, face: 5, by: 1 m}\n");
+  expect_room(longer, "room 1", 4 * 6, 4 * 6 * 2, 7);
+  // The eaves x = 4 go on under the slope: half a metre further it is half a metre high.
+  const Building wider = corrected(house.building, "  - move_wall: {room: room 1, face: 4, by: 0.5 m}\n");
+  expect_room(wider, "room 1", 4.5 * 5, 5 * (8 + 0.5 * 0.75), 7);
+}
+
+TEST_F(Corrections, TheFileIsReadWithPlaces) {
+  EXPECT_EQ(refused("  - rename_rom: {room: room 1, name: A}\n"),
+            "3:5: unknown correction 'rename_rom' | did you mean 'rename_room'?");
+  EXPECT_EQ(refused("  - rename_room: {room: room 1, nam: A}\n"),
+            "3:33: unknown key 'nam' of 'rename_room' | did you mean 'name'?");
+  EXPECT_EQ(refused("  - rename_room: {room: room 1}\n"),
+            "3:5: 'name' of 'rename_room' is missing | share/doc/corrections.md shows the format");
+  EXPECT_EQ(refused("  - rename_room: {room: rom 1, name: A}\n"),
+            "3:25: there is no room 'rom 1' | did you mean 'room 1'?");
+  EXPECT_EQ(refused("  - rename_room: {room: room 1, name: room 2}\n"),
+            "3:39: there is a room 'room 2' already | rooms have different names");
+  EXPECT_PRED2(begins_with, refused("  - move_wall: {room: room 1, face: 3, by: far}\n"),
+               "3:44: 'far' is not a number, and 'by' is a length | e.g. 2 cm (len");
+  EXPECT_EQ(refused("  - move_wall: {room: room 1, face: 3, at: [1, 2], by: 1 m}\n"),
+            "3:5: 'move_wall' needs exactly one of wall, face, at | 2 of them are given");
+  EXPECT_PRED2(begins_with, refused("  - move_wall: {room: room 1, at: [1, far], by: 1 m}\n"),
+               "3:39: 'far' is not a number, and 'a");
+  EXPECT_PRED2(begins_with, refused("  - set_thickness: {room: room 1, thickness: 30 cm}\n"),
+               "3:5: unknown correction 'set_thickness' ");
+  EXPECT_EQ(refused("  - change_opening: {opening: door 1}\n"),
+            "3:5: 'change_opening' changes nothing | give one of kind, distance, by, width, height, sill");
+  EXPECT_EQ(refused("  - drop_opening: door 1\n"),
+            "3:19: 'drop_opening' needs its keys | as in `- drop_opening: {opening: …}`");
+  EXPECT_PRED2(begins_with, refused("  - rename_room: {room: [a, name: A}\n"), "3:");
+  EXPECT_EQ(refused("  - rename_room: {room: room 1, name: A}\n  - drop_opening: {opening: window 7}\n"),
+            "4:29: there is no 'window 7' | did you mean 'window 1'?");
+}
+
+TEST_F(Corrections, WallsThatAreNotThereAreNamed) {
+  EXPECT_EQ(refused("  - move_wall: {room: room 1, face: 30, by: 1}\n"),
+            "3:37: there is no face 30 | building.json counts 12 faces from 0");
+  EXPECT_EQ(refused("  - move_wall: {room: room 1, face: 9, by: 1}\n"),
+            "3:37: face 9 is none of 'room 1' | numbers are those of building.json before all corrections; its walls: "
+            "face 2, face 3, face 4, face 5");
+  EXPECT_PRED2(begins_with, refused("  - move_wall: {room: room 1, face: 0, by: 1}\n"),
+               "3:37: face 0 is a floor, not a wal");
+  EXPECT_PRED2(begins_with, refused("  - move_wall: {room: room 1, wall: wall 99, by: 1}\n"),
+               "3:37: there is no 'wall 99' | w");
+  EXPECT_EQ(refused("  - move_wall: {room: room 1, at: [0, 0], by: 1}\n"),
+            "3:35: that place is in the corner of face 2 and face 5 | give one at the middle of the wall");
+  EXPECT_PRED2(begins_with, refused("  - move_wall: {room: room 1, at: [2, 9], by: 1}\n"),
+               "3:35: no wall of 'room 1' is within 1 m of that pla");
+  EXPECT_EQ(refused("  - merge_rooms: {rooms: [room 1, room 2]}\n  - move_wall: {room: room 1, face: 3, by: 1}\n"),
+            "4:37: face 3 is no more: a correction before this one took it away | ");
+}
+
+TEST_F(Corrections, WhatDoesNotFitIsRefused) {
+  EXPECT_EQ(
+      refused("  - move_wall: {room: room 1, face: 3, by: 0.2}\n"),
+      "3:5: 'room 1' would reach 0.24 m2 into 'room 2' | a smaller `by`; or `both: true`, which moves the whole wall");
+  EXPECT_PRED2(begins_with, refused("  - move_wall: {room: room 1, face: 3, by: -4.5}\n"),
+               "3:44: that is too far: after 4.00 m face 1 h");
+  EXPECT_PRED2(begins_with, refused("  - move_wall: {room: room 1, face: 4, by: -2}\n"),
+               "3:5: door 1 would reach beyond its wall, face 3 of 'room 1' | chang");
+  EXPECT_PRED2(begins_with, refused("  - set_ceiling: {room: room 1, height: 1.9}\n"),
+               "3:5: door 1 would reach beyond its wall, face 3 of 'room 1'");
+  EXPECT_PRED2(begins_with,
+               refused("  - add_opening: {room: room 1, face: 3, kind: door, distance: 2.5, width: 0.9, height: 2}\n"),
+               "3:64: the opening leaves its wall, face 3 of 'room 1' | ");
+  EXPECT_EQ(refused("  - add_opening: {room: room 1, face: 3, kind: door, distance: 1, width: 0.9, height: 2}\n"),
+            "3:64: the opening overlaps door 1 | that one is from 1.60 to 2.50 m along face 3, from its left corner");
+  EXPECT_EQ(refused("  - add_opening: {room: room 1, face: 3, kind: window, distance: 0.1, width: 0.9, height: 1}\n"),
+            "3:5: 'sill' of a window is missing | its lower edge over the foot of the wall, as in sill: 90 cm");
+  EXPECT_PRED2(begins_with, refused("  - change_opening: {opening: door 1, by: 0.1}\n"),
+               "3:31: door 1 is seen from two sides, and left and ");
+  EXPECT_PRED2(begins_with, refused("  - split_room: {room: room 1, from: [5, 0], to: [5, 1], names: [A, B]}\n"),
+               "3:38: the line does not cross 'room 1' exactly ");
+  EXPECT_PRED2(begins_with, refused("  - split_room: {room: room 1, from: [2, 0], to: [2, 1], names: [A, B]}\n"),
+               "3:5: window 1 would reach beyond its wall");
+  EXPECT_PRED2(begins_with, refused("  - drop_face: {room: room 1, face: 5}\n"),
+               "3:5: it is not clear what comes in the place of face 5: t");
+}
+
+TEST_F(Corrections, RoomsThatShareNoWallAreNotMerged) {
+  BoxBuilding b;
+  b.room(0, 0, 4, 3);
+  b.room(5, 0, 7, 3);
+  EXPECT_EQ(refused("  - merge_rooms: {rooms: [room 1, room 2]}\n", b.building),
+            "3:26: 'room 1' and 'room 2' share no wall | no two of their walls are back to back at most 0.60 m apart");
+}
+
+TEST_F(Corrections, AnOpeningBeforeTwoRoomsIsRefused) {
+  BoxBuilding b;
+  b.room(0, 0, 4, 6);
+  b.room(4.1, 0, 7, 2.9);
+  b.room(4.1, 3, 7, 6);
+  const std::string text = refused(
+      "  - add_opening: {room: room 1, face: 3, kind: door, distance: 2.5, width: 0.9, height: 2}\n", b.building);
+  EXPECT_PRED2(begins_with, text, "3:64: the opening lies only partly before face 17 of 'room 3' | that wal") << text;
+}
+
+TEST_F(Corrections, TheSchemaHasTheKeysThatAreRead) {
+  const auto schema = nlohmann::json::parse(test::read_text(ATRIUM_SOURCE_DIR "/share/schema/corrections.schema.json"));
+  const auto& all = schema["properties"]["corrections"]["items"]["properties"];
+  EXPECT_EQ(all.size(), correction_rules().size());
+  for (const auto& rule : correction_rules()) {
+    ASSERT_TRUE(all.contains(rule.name)) << rule.name;
+    std::set<std::string> keys, listed;
+    for (const auto* some : {&rule.required, &rule.optional, &rule.one_of, &rule.at_least_one})
+      keys.insert(some->begin(), some->end());
+    for (const auto& entry : all[std::string(rule.name)]["properties"].items()) listed.insert(entry.key());
+    EXPECT_EQ(listed, keys) << rule.name;
+    EXPECT_EQ(all[std::string(rule.name)]["required"].get<std::vector<std::string>>(),
+              std::vector<std::string>(rule.required.begin(), rule.required.end()));
+  }
+}
+
+}  // namespace
+}  // namespace atrium::building::correct_test
