@@ -97,10 +97,16 @@ std::vector<std::uint32_t> read_indices(GltfFile& file, const JsonField& field, 
     field["componentType"].fail("is no whole number without sign, as indices are");
   const Elements from = elements(file, field, count, size_of(type));
   std::vector<std::uint32_t> indices(count);
-  with_scalar(type, [&](auto t) {
+  const auto read = [&](auto t) {
     for (std::size_t i = 0; i < count; ++i)
-      indices[i] = static_cast<std::uint32_t>(load<decltype(t)>(from.first + i * from.stride, gltf_is_swapped));
-  });
+      indices[i] = load<decltype(t)>(from.first + i * from.stride, gltf_is_swapped);
+  };
+  if (type == Scalar::u8)
+    read(std::uint8_t{});
+  else if (type == Scalar::u16)
+    read(std::uint16_t{});
+  else
+    read(std::uint32_t{});
   return indices;
 }
 
