@@ -166,7 +166,8 @@ bool Scheduler::replay(std::size_t n, const CacheRecord& found) {
   const double start = wall_seconds() - start_;
   const double cpu = thread_cpu_seconds();
   const PngStamp& stamp = options_.stamp ? options_.stamp(node) : picture_stamp_;
-  NodeHost host(record.node, options_.out, node.folder, options_.cancel, stamp, progress_, nullptr);
+  NodeHost host(
+      record.node, options_.out, node.folder, [this] { return cancelled(); }, stamp, progress_, nullptr);
   Context context(node.seed, std::shared_ptr<ContextHost>(std::shared_ptr<void>(), &host));
   try {
     for (const auto& file : found.files) {

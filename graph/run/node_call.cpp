@@ -44,8 +44,8 @@ bool Scheduler::call(std::size_t n, const Inputs& inputs, std::vector<Value>& ou
   NodeRecord& record = result_.nodes[n];
   const PngStamp& stamp = options_.stamp ? options_.stamp(node) : picture_stamp_;
   Cache* keeper = states_[n].found.key.fields.empty() ? nullptr : cache_;
-  const auto host =
-      std::make_shared<NodeHost>(record.node, options_.out, node.folder, options_.cancel, stamp, progress_, keeper);
+  const auto host = std::make_shared<NodeHost>(
+      record.node, options_.out, node.folder, [this] { return cancelled(); }, stamp, progress_, keeper);
   Context context(node.seed, host, node.type->random);
   record.thread = tbb::this_task_arena::current_thread_index();
   record.start = wall_seconds() - start_;

@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -20,18 +21,18 @@ class NodeHost final : public ContextHost {
  public:
   /// `folder` is the run's, `subfolder` the node's in it. With a cache the files that the node writes are kept.
   NodeHost(const std::string& node, const std::filesystem::path& folder, const std::filesystem::path& subfolder,
-           const std::atomic<bool>* cancel, const PngStamp& stamp, ProgressSink& progress, Cache* cache)
+           std::function<bool()> cancelled, const PngStamp& stamp, ProgressSink& progress, Cache* cache)
       : node_(node),
         folder_(folder),
         subfolder_(subfolder),
-        cancel_(cancel),
+        cancelled_(std::move(cancelled)),
         stamp_(stamp),
         progress_(progress),
         cache_(cache) {}
 
   void log(Level level, std::string_view text) override;
   void progress(double share) override { progress_.progress(node_, share); }
-  bool cancelled() override { return cancel_ != nullptr && cancel_->load(std::memory_order_relaxed); }
+  bool cancelled() override { return cancelled_(); }
   std::filesystem::path output_folder() override {
     return folder_.empty() && subfolder_.empty() ? "." : folder_ / subfolder_;
   }
@@ -49,7 +50,7 @@ class NodeHost final : public ContextHost {
   const std::string& node_;
   const std::filesystem::path& folder_;
   const std::filesystem::path& subfolder_;
-  const std::atomic<bool>* cancel_;
+  std::function<bool()> cancelled_;
   const PngStamp& stamp_;  ///< goes into every picture that the node writes
   ProgressSink& progress_;
   Cache* cache_;

@@ -58,11 +58,12 @@ RunResult Scheduler::run() {
     threads.execute([&] {
       tbb::task_group group;
       spawn_ = [&](std::size_t tasks) {
-        for (std::size_t i = 0; i < tasks; ++i) group.run([this] { step(); });
+        for (std::size_t i = 0; i < tasks; ++i) group.run([this] { guarded_step(); });
       };
       spawn_(ready_.size());
       group.wait();
     });
+    if (problem_) std::rethrow_exception(problem_);
   } while (lost_ > 0 && !stopping() && !stands_still());
   return result();
 }
@@ -132,11 +133,23 @@ RunResult Scheduler::result() {
   return std::move(result_);
 }
 
-bool Scheduler::cancelled() const { return options_.cancel != nullptr && options_.cancel->load(); }
+bool Scheduler::cancelled() const { return ended_ || (options_.cancel != nullptr && options_.cancel->load()); }
 bool Scheduler::stopping() const { return cancelled() || (options_.stop != nullptr && options_.stop->load()); }
 
 void Scheduler::push(std::size_t n) {
   ready_.push({stamp_, n, boost::out_degree(n, pipeline_) == 0, states_[n].remaining});
+}
+
+/// An exception must not reach the group of tasks: oneTBB would end it by cutting short the loops of all nodes that run
+/// meanwhile, without a word to them, and they would hand on half a result as if it were whole.
+void Scheduler::guarded_step() {
+  try {
+    if (!ended_) step();
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    if (!problem_) problem_ = std::current_exception();
+    ended_ = true;
+  }
 }
 
 void Scheduler::step() {

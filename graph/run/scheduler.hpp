@@ -1,5 +1,6 @@
 #pragma once
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -66,6 +67,7 @@ class Scheduler {
   void prepare();
   void begin_round();
   std::size_t schedule();
+  void guarded_step();
   void step();
   void execute(std::size_t n);
   bool call_watched(std::size_t n, Inputs inputs, std::vector<Value>& outputs, std::optional<std::uint64_t>& growth);
@@ -116,9 +118,11 @@ class Scheduler {
   std::mutex mutex_;
   std::priority_queue<Ready> ready_;
   std::size_t stamp_ = 0;
-  std::size_t lost_ = 0;      ///< nodes of this round that lack a value, or give a new one
-  std::size_t settled_ = 0;   ///< nodes that were settled in this round
-  std::size_t findings_ = 0;  ///< nodes of which a round found that their values or files cannot be had as they were
+  std::size_t lost_ = 0;        ///< nodes of this round that lack a value, or give a new one
+  std::size_t settled_ = 0;     ///< nodes that were settled in this round
+  std::size_t findings_ = 0;    ///< nodes of which a round found that their values or files cannot be had as they were
+  std::exception_ptr problem_;  ///< the first that ended the run, such as a record that cannot be written
+  std::atomic<bool> ended_ = false;  ///< by it
   MemoryWatch memory_watch_;
   std::vector<State> states_;
   RunResult result_;

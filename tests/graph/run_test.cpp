@@ -178,6 +178,47 @@ TEST(Run, CancellingKeepsWhatIsDoneAndStartsNothingMore) {
   EXPECT_EQ(result.outputs.count("a"), 1U);
 }
 
+/// As a sweep whose record of a variant cannot be written.
+class FullDisk : public ProgressSink {
+ public:
+  std::atomic<bool> full = false;
+  void finished(const NodeRecord& node) override {
+    if (node.node != "a") return;
+    full = true;
+    throw Error("the disk is full");
+  }
+};
+
+TEST(Run, WhatEndsARunCutsNoLoopShortInSilence) {
+  FullDisk disk;
+  std::atomic<bool> begun = false, cut_short = false, told = false;
+  PipelineBuilder b;
+  add_call(b, "a", [&](Context&) {
+    EXPECT_TRUE(in_time([&] { return begun.load(); }));
+    return value();
+  });
+  add_call(b, "b", [&](Context& context) {
+    begun = true;
+    EXPECT_TRUE(in_time([&] { return disk.full.load(); }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // until it is known around here
+    std::atomic<std::size_t> done = 0;
+    try {
+      context.parallel_for(
+          1000, [&](std::size_t begin, std::size_t end) { done += end - begin; }, 1);
+      cut_short = done < 1000;
+    } catch (const Cancelled&) {
+      told = true;
+      throw;
+    }
+    return value();
+  });
+  RunOptions options;
+  options.threads = 2;
+  EXPECT_THROW(run_pipeline(b.pipeline(), options, disk), Error);
+  EXPECT_FALSE(cut_short) << "the node would have given half a result as if it were whole";
+  EXPECT_TRUE(told);
+}
+
 TEST(Run, OneThreadIsOneThread) {
   PipelineBuilder b;
   std::mutex mutex;
