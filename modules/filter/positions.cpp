@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "modules/geometry/grid_walk.hpp"
@@ -16,14 +17,35 @@ constexpr double least_cell = 0.05;    // metres
 constexpr double straight_part = 0.8;  // of a way: the rest may graze the surface it ends on
 constexpr std::size_t most_ways = 20000;
 
-bool is_free(const PointGrid& grid, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  const double length = (to - from).norm();
-  if (length < 2 * grid.cell_size()) return true;
-  return !walk(grid, from, (to - from) / length, straight_part * length, [](std::uint32_t, double) { return true; });
-}
+/// The points in cubes. What hides other things fills its cubes as surfaces do; strays do not.
+class Ways {
+ public:
+  Ways(const Cloud& cloud, const Context& context) : grid_(grid_for_rays(cloud.points, least_cell, context)) {
+    constexpr double part = 0.2;  // of what the cube of the median point holds
+    std::vector<std::size_t> counts;
+    counts.reserve(grid_->cells().size());
+    for (const auto& cell : grid_->cells()) counts.push_back(cell.end - cell.begin);
+    std::sort(counts.begin(), counts.end());
+    std::size_t below = 0, i = 0;
+    while (i + 1 < counts.size() && 2 * (below + counts[i]) < grid_->inside()) below += counts[i++];
+    if (!counts.empty()) least_ = part * static_cast<double>(counts[i]);
+  }
+  bool are_free(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+    const double length = (to - from).norm();
+    if (length < 2 * grid_->cell_size()) return true;
+    return !walk(*grid_, from, (to - from) / length, straight_part * length, [&](std::uint32_t c, double) {
+      const auto& cell = grid_->cells()[c];
+      return static_cast<double>(cell.end - cell.begin) >= least_;
+    });
+  }
+
+ private:
+  std::unique_ptr<PointGrid> grid_;
+  double least_ = 0;  ///< points in a cube that stop a way
+};
 
 /// Share of a sample of the points that their own positions saw along a free way.
-double free_share(const Cloud& cloud, const PointGrid& grid, const Context& context) {
+double free_share(const Cloud& cloud, const Ways& ways, const Context& context) {
   const std::size_t step = std::max<std::size_t>(1, cloud.size() / most_ways);
   const std::size_t count = cloud.size() / step;
   std::vector<std::uint8_t> free(count, 0);
@@ -32,7 +54,7 @@ double free_share(const Cloud& cloud, const PointGrid& grid, const Context& cont
       const std::size_t i = k * step;
       const std::size_t s = cloud.source[i];
       free[k] =
-          s < cloud.sensors.size() && is_free(grid, cloud.sensors[s].cast<double>(), cloud.points[i].cast<double>());
+          s < cloud.sensors.size() && ways.are_free(cloud.sensors[s].cast<double>(), cloud.points[i].cast<double>());
     }
   });
   return count == 0 ? 0 : static_cast<double>(std::count(free.begin(), free.end(), 1)) / static_cast<double>(count);
@@ -64,11 +86,11 @@ std::vector<std::uint32_t> furthest_in_bins(const Cloud& cloud, const Eigen::Vec
 }
 
 /// Share of the directions around a place, those that meet points, in which the furthest point is seen freely.
-double visible_share(const Cloud& cloud, const PointGrid& grid, const Eigen::Vector3d& place, const Context& context) {
+double visible_share(const Cloud& cloud, const Ways& ways, const Eigen::Vector3d& place, const Context& context) {
   const std::vector<std::uint32_t> targets = furthest_in_bins(cloud, place);
   std::vector<std::uint8_t> free(targets.size(), 0);
   context.parallel_for(targets.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) free[k] = is_free(grid, place, cloud.points[targets[k]].cast<double>());
+    for (std::size_t k = begin; k < end; ++k) free[k] = ways.are_free(place, cloud.points[targets[k]].cast<double>());
   });
   return targets.empty()
              ? 0
@@ -98,7 +120,7 @@ SharedOutput<Cloud> with_positions(const Input<Cloud>& cloud, std::vector<Eigen:
 }
 
 SharedOutput<Cloud> checked_positions(const Input<Cloud>& cloud, double min_free, const Context& context) {
-  const double share = free_share(*cloud, *grid_for_rays(cloud->points, least_cell, context), context);
+  const double share = free_share(*cloud, Ways(*cloud, context), context);
   if (share >= min_free) {
     context.info(
         fmt::format("{} positions, {:.0f} % of the ways to their points are free", cloud->sensors.size(), 100 * share));
@@ -116,7 +138,7 @@ SharedOutput<Cloud> checked_position(const Input<Cloud>& cloud, double min_visib
   const bool named = cloud->sensors.size() == 1;
   const Eigen::Vector3d place = named ? cloud->sensors.front().cast<double>() : Eigen::Vector3d(-cloud->origin);
   if (!named && !stands_clear(*cloud, place)) return with_positions(cloud, {});
-  const double share = visible_share(*cloud, *grid_for_rays(cloud->points, least_cell, context), place, context);
+  const double share = visible_share(*cloud, Ways(*cloud, context), place, context);
   if (share >= min_visible) {
     context.info(fmt::format("one position, {}: {:.0f} % of the directions around it show one depth",
                              named ? "the file's" : "the file's origin", 100 * share));

@@ -15,8 +15,9 @@ namespace atrium::filter {
 ///   of several. A named position that fails is left out, with a warning; the file's origin that passes becomes the
 ///   position.
 ///
-/// Points do not change. A way is free if no voxel on its first four fifths holds points: near its end it may graze the
-/// surface that it was aimed at. Cost: linear in the points; at most 20,000 ways. No random numbers.
+/// Points do not change. A way is free if no voxel on its first four fifths is filled as surfaces fill them (a fifth of
+/// what the voxel of the median point holds): near its end it may graze the surface that it was aimed at. Cost: linear
+/// in the points; at most 20,000 ways. No random numbers.
 struct Positions {
   static constexpr std::string_view type = "filter.positions";
   static constexpr std::string_view summary = "Keeps the scanner positions that the points confirm.";

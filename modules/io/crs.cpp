@@ -12,7 +12,6 @@
 namespace atrium::io {
 namespace {
 
-constexpr double us_survey_foot = 1200.0 / 3937.0;
 
 std::string_view without_blanks(std::string_view text) {
   while (!text.empty() && (static_cast<unsigned char>(text.back()) <= ' ')) text.remove_suffix(1);

@@ -6,6 +6,8 @@
 
 namespace atrium::io {
 
+constexpr double us_survey_foot = 1200.0 / 3937.0;  ///< metres
+
 /// What a file says of its coordinate reference system.
 struct Crs {
   std::string text;              ///< as Cloud::crs

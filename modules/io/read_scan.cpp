@@ -156,7 +156,8 @@ ReadScan::Out ReadScan::run(const Params& params, Context& context) {
   const bool thin = params.voxel > 0 && !sampled && geometry.count > static_cast<std::size_t>(params.voxel_above);
   const auto decoded = [&](double scale) {
     if (sampled) return sample(geometry, params, scale, context);
-    return thin ? thinned(geometry, scale, params.voxel, context) : decode_cloud(geometry, scale, context);
+    return thin ? thinned(geometry, scale, params.voxel, params.voxel_share, context)
+                : decode_cloud(geometry, scale, context);
   };
   const bool known = params.unit != Unit::automatic;
   double scale = params.scale * (known ? metres_per(params.unit) : 1.0);

@@ -38,7 +38,8 @@ namespace atrium::io {
 /// Any size: with `voxel` the points are thinned while they are read, to the same points as filter.voxel_grid gives
 /// with that size. Memory then grows with the surface that was scanned, not with the points, which need 12 to 40 bytes
 /// each. With `voxel_above` only large scans are thinned; that they are is a warning, as what is measured against the
-/// points (building.accuracy) then tells of their means, which have less noise.
+/// points (building.accuracy) then tells of their means, which have less noise. Of dense scans noise and strays fill as
+/// many voxels as surfaces do, each as heavy as one of theirs: `voxel_share` leaves them out.
 ///
 /// Errors: file missing, empty, truncated or malformed (with line or byte), without points, with fewer than three
 /// finite points. Warnings: points that are not finite (dropped), normals that are not (left out), a unit that is not
@@ -64,6 +65,7 @@ struct ReadScan {
     SensorUse sensor = SensorUse::automatic;
     double voxel = 0;
     std::int64_t voxel_above = 0;
+    double voxel_share = 0;
   };
   static constexpr auto outputs = std::tuple{port<&Out::cloud>("The points, in the file's frame, in metres.")};
   static constexpr auto params = std::tuple{
@@ -103,7 +105,10 @@ struct ReadScan {
           "Edge of the voxels that points are joined in while they are read; 0: all points are kept. Not for meshes "
           "that are sampled."),
       param<&Params::voxel_above>(count, within(0, 4e9),
-                                  "Only scans of more points are joined so; 0: all. Below, every point is kept.")};
+                                  "Only scans of more points are joined so; 0: all. Below, every point is kept."),
+      param<&Params::voxel_share>(ratio, within(0, 1),
+                                  "Voxels with less than this share of the points of the fullest one around them are "
+                                  "noise and left out; 0: none.")};
   static Out run(const Params& params, Context& context);
 };
 

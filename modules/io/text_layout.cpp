@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "graph/api/error.hpp"
+#include "modules/io/column_names.hpp"
 
 namespace atrium::io {
 namespace {
@@ -16,13 +16,6 @@ using Fields = std::vector<std::string_view>;
 
 const char* const columns_help =
     "name the columns in a first line, for example: x y z intensity r g b nx ny nz (others are skipped)";
-
-Fields tokens_of(std::string_view line) {
-  Fields all;
-  const auto next = [&] { return next_token(line, Commas::separate); };
-  for (auto t = next(); !t.empty() && (all.empty() || !t.starts_with('#')); t = next()) all.push_back(t);
-  return all;
-}
 
 /// The fields of a row, without a comment behind its numbers.
 Fields row_fields(std::string_view line, const TextDialect& dialect) {
@@ -36,99 +29,9 @@ Fields row_fields(std::string_view line, const TextDialect& dialect) {
   return fields;
 }
 
-/// The same where a surveyor's names say which are x, y and z: easting, northing, elevation. Empty if they do not.
-std::vector<Role> surveyors_roles(const Fields& names, std::vector<Role> roles) {
-  constexpr std::pair<std::string_view, Role> known[] = {
-      {"easting", Role::x},   {"east", Role::x},   {"northing", Role::y}, {"north", Role::y},
-      {"elevation", Role::z}, {"height", Role::z}, {"altitude", Role::z}};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string name = lower_case(names[i].substr(0, names[i].find_first_of("[( ")));
-    for (const auto& [text, role] : known)
-      if (roles[i] == Role::none && text == name && std::find(roles.begin(), roles.end(), role) == roles.end())
-        roles[i] = role;
-  }
-  const auto has = [&](Role role) { return std::find(roles.begin(), roles.end(), role) != roles.end(); };
-  return has(Role::x) && has(Role::y) && has(Role::z) ? roles : std::vector<Role>{};
-}
-
-/// The roles if the fields name the columns, with x, y and z among them; else empty.
-std::vector<Role> named_roles(const Fields& names) {
-  std::vector<Role> roles;
-  bool position[3] = {false, false, false};
-  for (auto name : names) {
-    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-    Role role = role_of(name);
-    if (role == Role::packed_colour || role == Role::source ||
-        std::find(roles.begin(), roles.end(), role) != roles.end())
-      role = Role::none;
-    roles.push_back(role);
-    if (role <= Role::z) position[static_cast<std::size_t>(role)] = true;
-  }
-  if (position[0] && position[1] && position[2]) return roles;
-  return surveyors_roles(names, std::move(roles));
-}
-
-/// The same for a line of names, by the dialect of the rows or by any separator, for so many columns if it can be.
-std::vector<Role> named_roles(std::string_view line, const TextDialect& dialect, std::size_t width) {
-  Fields plain = tokens_of(line);
-  std::erase_if(plain, [](std::string_view t) { return t.front() == '[' || t.front() == '('; });  // units on their own
-  std::vector<Role> best;
-  for (const auto& names :
-       {fields_of(line, dialect), fields_of(line, {'\t'}), fields_of(line, {';'}), fields_of(line, {','}), plain}) {
-    auto roles = named_roles(names);
-    if (!roles.empty() && (best.empty() || (best.size() != width && roles.size() == width))) best = std::move(roles);
-  }
-  return best;
-}
-
-/// Metres per unit, if names have one unit of length in brackets: "X [ft]", "Easting(m)".
-std::optional<double> unit_in(std::string_view names) {
-  constexpr std::pair<std::string_view, double> units[] = {{"m", 1},
-                                                           {"metre", 1},
-                                                           {"metres", 1},
-                                                           {"meter", 1},
-                                                           {"meters", 1},
-                                                           {"cm", 0.01},
-                                                           {"mm", 0.001},
-                                                           {"in", 0.0254},
-                                                           {"inch", 0.0254},
-                                                           {"inches", 0.0254},
-                                                           {"ft", 0.3048},
-                                                           {"foot", 0.3048},
-                                                           {"feet", 0.3048},
-                                                           {"us-ft", 1200.0 / 3937},
-                                                           {"ftus", 1200.0 / 3937}};
-  std::optional<double> found;
-  for (std::size_t at = names.find_first_of("[("); at != std::string_view::npos;
-       at = names.find_first_of("[(", at + 1)) {
-    const std::string_view rest = names.substr(at + 1);
-    const std::string text = lower_case(rest.substr(0, rest.find_first_of("])")));
-    for (const auto& [unit, metres] : units) {
-      if (text != unit) continue;
-      if (found && *found != metres) return std::nullopt;
-      found = metres;
-    }
-  }
-  return found;
-}
-
 bool is_numeric(const Fields& fields, const TextDialect& dialect) {
   double v = 0;
   return std::all_of(fields.begin(), fields.end(), [&](std::string_view t) { return parse_field(t, dialect, v); });
-}
-
-/// The last comment before the first row that names columns.
-std::string_view names_in_comments(std::string_view text) {
-  std::string_view names;
-  for_lines(text, [&](std::string_view line) {
-    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-    if (line.empty()) return true;
-    if (!line.starts_with('#') && !line.starts_with("//")) return false;
-    line.remove_prefix(std::min(line.find_first_not_of("#/"), line.size()));
-    if (!named_roles(line, {}, 0).empty()) names = line;
-    return true;
-  });
-  return names;
 }
 
 /// The numbers of some rows, which all have so many columns.
@@ -368,20 +271,23 @@ TextLayout text_layout(const std::string& path, std::string_view text, const Lin
 
   const std::size_t width_below = row_fields(rows.back().text, layout.dialect).size();
   std::string_view names = names_in_comments(text);
+  const auto take_names = [&] {
+    ColumnNames named = column_names(names, layout.dialect, width_below);
+    layout.roles = std::move(named.roles);
+    layout.metres_per_unit = named.metres_per_unit;
+  };
   if (!is_numeric(row_fields(rows[0].text, layout.dialect), layout.dialect)) {
     names = rows[0].text;
-    layout.roles = named_roles(names, layout.dialect, width_below);
+    take_names();
     if (layout.roles.empty())
       throw Error(fmt::format("{}:{}: neither numbers nor column names with x, y and z: {}", path, rows[0].line,
                               quote(rows[0].text)),
                   columns_help);
-    layout.metres_per_unit = unit_in(names);
     ++layout.first_row;
     rows.erase(rows.begin());
     if (rows.empty()) throw Error(path + ": no points after the line of column names");
   } else if (!names.empty()) {
-    layout.roles = named_roles(names, layout.dialect, width_below);
-    layout.metres_per_unit = unit_in(names);
+    take_names();
   }
   const Fields fields = row_fields(rows.front().text, layout.dialect);
   if (layout.roles.empty()) {

@@ -13,6 +13,7 @@
 #include "modules/io/column_source.hpp"
 #include "modules/io/decode.hpp"
 #include "modules/io/decode_source.hpp"
+#include "modules/io/voxel_noise.hpp"
 #include "modules/io/voxel_sums.hpp"
 
 namespace atrium::io {
@@ -74,6 +75,12 @@ class MortonOrder {
     for (unsigned a = 0; a < 3; ++a)
       bits_[a] = high[a] < low_[a] ? 2 : std::max(2U, static_cast<unsigned>(std::bit_width(high[a] - low_[a])));
   }
+  /// A voxel's place along each axis, counted from the lowest.
+  std::array<std::uint32_t, 3> place_of(std::uint64_t key) const {
+    std::array<std::uint32_t, 3> place{};
+    for (unsigned a = 0; a < 3; ++a) place[a] = static_cast<std::uint32_t>((key >> (21 * a) & axis_mask) - low_[a]);
+    return place;
+  }
   std::uint64_t of(std::uint64_t key) const {
     std::uint64_t morton = 0;
     unsigned next = 0;
@@ -99,8 +106,15 @@ struct VoxelPlace {
 
 class Thinning {
  public:
-  Thinning(const RawGeometry& geometry, const PointSource& source, double scale, double voxel, const Context& context)
-      : geometry_(geometry), source_(source), scale_(scale), voxel_(voxel), context_(context), shards_(shard_count) {}
+  Thinning(const RawGeometry& geometry, const PointSource& source, double scale, double voxel, double share,
+           const Context& context)
+      : geometry_(geometry),
+        source_(source),
+        scale_(scale),
+        voxel_(voxel),
+        share_(share),
+        context_(context),
+        shards_(shard_count) {}
 
   Cloud run() {
     origin_ = choose_origin(geometry_, scale_);
@@ -178,6 +192,7 @@ class Thinning {
                                 static_cast<std::uint32_t>(v)};
     });
     tbb::parallel_sort(places.begin(), places.end());
+    if (share_ > 0) leave_out_noise(order, places);
     Cloud cloud;
     const auto room = [&](Role role) { return source_.has(role) ? places.size() : 0; };
     cloud.points.resize(places.size());
@@ -193,9 +208,29 @@ class Thinning {
     return cloud;
   }
 
+  void leave_out_noise(const MortonOrder& order, std::vector<VoxelPlace>& places) const {
+    std::vector<VoxelCount> voxels;
+    voxels.reserve(places.size());
+    for (const auto& p : places)
+      voxels.push_back({order.place_of(shards_[p.shard].key(p.voxel)), shards_[p.shard].points(p.voxel)});
+    const std::vector<bool> noise = noise_voxels(voxels, share_, context_);
+    std::size_t kept = 0;
+    std::uint64_t points = 0;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (noise[i])
+        points += voxels[i].points;
+      else
+        places[kept++] = places[i];
+    if (kept < places.size())
+      context_.info(fmt::format("{} of {} voxels are left out as noise: they hold {:.2g} % of the points",
+                                places.size() - kept, places.size(),
+                                100 * static_cast<double>(points) / static_cast<double>(counts_.points)));
+    places.resize(kept);
+  }
+
   const RawGeometry& geometry_;
   const PointSource& source_;
-  double scale_, voxel_;
+  double scale_, voxel_, share_;
   const Context& context_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<VoxelSums> shards_;
@@ -207,11 +242,11 @@ class Thinning {
 
 }  // namespace
 
-Cloud thinned(const RawGeometry& geometry, double scale, double voxel, const Context& context) {
+Cloud thinned(const RawGeometry& geometry, double scale, double voxel, double share, const Context& context) {
   check_count(geometry);
-  if (geometry.source) return Thinning(geometry, *geometry.source, scale, voxel, context).run();
+  if (geometry.source) return Thinning(geometry, *geometry.source, scale, voxel, share, context).run();
   const ColumnSource source(geometry, context);
-  return Thinning(geometry, source, scale, voxel, context).run();
+  return Thinning(geometry, source, scale, voxel, share, context).run();
 }
 
 Cloud sample_of(const RawGeometry& geometry, const Context& context) {

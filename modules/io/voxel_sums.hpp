@@ -17,6 +17,7 @@ class VoxelSums {
   void add(std::uint64_t key, const Cloud& cloud, std::size_t i);
   std::size_t size() const { return keys_.size(); }
   std::uint64_t key(std::size_t voxel) const { return keys_[voxel]; }
+  std::uint64_t points(std::size_t voxel) const { return places_[voxel].count; }
   /// Puts a voxel's means at a place of the cloud, whose columns have room for it.
   void put(std::size_t voxel, Cloud& cloud, std::size_t place) const;
 

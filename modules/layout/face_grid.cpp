@@ -159,4 +159,15 @@ std::vector<FaceGrid> face_grids(const Building& building, const PlanePrimitives
   return grids;
 }
 
+double distance_to_rings(const Rings& rings, const Eigen::Vector2d& p) {
+  double nearest = 1e300;
+  for (const auto& ring : rings)
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Eigen::Vector2d &a = ring[i], d = ring[(i + 1) % ring.size()] - a;
+      const double along = d.squaredNorm() > 0 ? std::clamp(d.dot(p - a) / d.squaredNorm(), 0.0, 1.0) : 0;
+      nearest = std::min(nearest, (a + along * d - p).norm());
+    }
+  return nearest;
+}
+
 }  // namespace atrium::layout

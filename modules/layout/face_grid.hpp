@@ -48,4 +48,7 @@ std::vector<FaceGrid> face_grids(const Building& building, const PlanePrimitives
 /// Whether a place lies in a polygon seen from above (even number of crossings: outside). Rings: outline and holes.
 bool inside_rings(const std::vector<std::vector<Eigen::Vector2d>>& rings, const Eigen::Vector2d& p);
 
+/// The distance from a place to the nearest edge of these rings, in their unit.
+double distance_to_rings(const std::vector<std::vector<Eigen::Vector2d>>& rings, const Eigen::Vector2d& p);
+
 }  // namespace atrium::layout

@@ -87,8 +87,10 @@ double FaceMask::cover(const std::vector<Eigen::Vector2d>& points, double farthe
     usual = *rank;
   }
   for (std::size_t i = 0; i < occupied.size(); ++i) {
-    const int reach = std::clamp(reaches[i], 0, usual);
     const Eigen::Vector2i& p = occupied[i];
+    const bool dense = reaches[i] >= 0 && reaches[i] <= usual;
+    const bool half_as_dense = 2 * sums.around(p.x(), p.y(), usual) >= handful;  // strays are not
+    const int reach = dense ? reaches[i] : half_as_dense ? usual : 0;
     for (int y = std::max(0, p.y() - reach); y <= std::min(height_ - 1, p.y() + reach); ++y)
       for (int x = std::max(0, p.x() - reach); x <= std::min(width_ - 1, p.x() + reach); ++x)
         if (at(x, y) == Square::hidden) at(x, y) = Square::solid;

@@ -32,7 +32,8 @@ class FaceMask {
 
   /// Turns hidden squares with points in or around them into solid ones. Around: as far as a square of the same size
   /// about a point must reach to hold a handful of points, so sparse surfaces are closed and dense ones keep sharp
-  /// edges; at most `farthest`. Single points far from all others cover their own square only. Returns how far most
+  /// edges; at most `farthest`. Points with less than half of that around them as far as most points reach are strays:
+  /// they cover their own square only. Returns how far most
   /// points reach, metres.
   double cover(const std::vector<Eigen::Vector2d>& points, double farthest);
   /// The mask without the solid squares at most `margin` away from hidden ones or holes: those become hidden.

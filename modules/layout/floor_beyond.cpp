@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "modules/layout/face_grid.hpp"
@@ -20,6 +21,29 @@ constexpr double least_floor = 0.8;    // square metres of a piece
 constexpr double least_walls = 0.8;    // metres of walls that face it
 constexpr std::size_t few_points = 2;  // in a square: strays
 
+/// A room as seen from above, and from where to where it reaches.
+struct RoomSpan {
+  std::vector<std::vector<Eigen::Vector2d>> rings;
+  Eigen::AlignedBox2d box;
+  double floor = 0, low = 0, high = 0;
+};
+
+RoomSpan span_of(const Building& building, const BuildingRoom& room) {
+  RoomSpan span{.rings = std::vector<std::vector<Eigen::Vector2d>>(1), .box = {}};
+  for (const auto& p : room.outline) {
+    span.rings[0].emplace_back(p.head<2>());
+    span.box.extend(span.rings[0].back());
+    span.floor += p.z() / static_cast<double>(room.outline.size());
+  }
+  span.low = span.high = span.floor;
+  for (const auto f : room.faces)
+    for (const auto v : building.faces[static_cast<std::size_t>(f)].outline) {
+      span.low = std::min(span.low, building.vertices[v].z());
+      span.high = std::max(span.high, building.vertices[v].z());
+    }
+  return span;
+}
+
 /// The mean height of a plane in a square.
 struct SquareLevel {
   double sum = 0;
@@ -28,12 +52,13 @@ struct SquareLevel {
   double z() const { return sum / static_cast<double>(count); }
 };
 
+/// The squares around the rooms of one storey.
 class BeyondSquares {
  public:
-  BeyondSquares(const Building& building, const PlanePrimitives& planes) : planes_(planes) {
+  BeyondSquares(const std::vector<RoomSpan>& rooms, const std::vector<RoomSpan>& others, const PlanePrimitives& planes)
+      : planes_(planes) {
     Eigen::AlignedBox2d box;
-    for (const auto& room : building.rooms)
-      for (const auto& p : room.outline) box.extend(p.head<2>().eval());
+    for (const auto& room : rooms) box.extend(room.box);
     if (box.isEmpty()) return;
     const Eigen::Vector2d margin = Eigen::Vector2d::Constant(beyond_reach);
     low_ = box.min() - margin;
@@ -48,7 +73,8 @@ class BeyondSquares {
     beside_.assign(squares, false);
     heights_.assign(squares, 0);
     for (std::size_t p = 0; p < planes.primitives.size(); ++p) add(p);
-    for (const auto& room : building.rooms) look_around(room);
+    for (const auto& room : rooms) look_around(room);
+    for (const auto& room : others) hide(room);
     find_tall();
   }
 
@@ -123,48 +149,45 @@ class BeyondSquares {
   }
 
   /// Marks the squares that the room holds and those beside it, and the floors around it.
-  void look_around(const BuildingRoom& room) {
-    if (room.outline.empty()) return;
-    std::vector<std::vector<Eigen::Vector2d>> rings(1);
-    Eigen::AlignedBox2d box;
-    double floor = 0;
-    for (const auto& p : room.outline) {
-      rings[0].emplace_back(p.head<2>());
-      box.extend(rings[0].back());
-      floor += p.z() / static_cast<double>(room.outline.size());
-    }
-    floors_.push_back(floor);
-    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(beyond_reach);
-    const Eigen::Vector2i first = ((box.min() - margin - low_) / beyond_edge).array().floor().cast<int>().max(0);
-    const Eigen::Vector2i last = ((box.max() + margin - low_) / beyond_edge)
+  void look_around(const RoomSpan& room) {
+    floors_.push_back(room.floor);
+    in_reach(room, beyond_reach, [&](std::size_t i, bool inner, double distance) {
+      if (inner) inside_[i] = true;
+      if (inner || distance < beside_room) beside_[i] = true;
+      for (const auto& level : levels_[i])
+        if (level.count >= few_points && std::abs(level.z() - room.floor) < same_floor) {
+          floor_[i] = true;
+          heights_[i] = room.floor;
+        }
+    });
+  }
+
+  /// A room of another storey: what it holds of this one's floors is in a room, too.
+  void hide(const RoomSpan& room) {
+    in_reach(room, beside_room, [&](std::size_t i, bool inner, double) {
+      if (!floor_[i] || heights_[i] < room.low - same_floor || heights_[i] + over_parapets > room.high) return;
+      if (inner) inside_[i] = true;
+      beside_[i] = true;
+    });
+  }
+
+  /// Calls work(square, whether the room holds its centre, distance from the room's outline).
+  template <class Work>
+  void in_reach(const RoomSpan& room, double reach, const Work& work) const {
+    if (room.box.isEmpty()) return;
+    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(reach);
+    const Eigen::Vector2i first = ((room.box.min() - margin - low_) / beyond_edge).array().floor().cast<int>().max(0);
+    const Eigen::Vector2i last = ((room.box.max() + margin - low_) / beyond_edge)
                                      .array()
                                      .floor()
                                      .cast<int>()
                                      .min(Eigen::Array2i(width_ - 1, height_ - 1));
     for (int y = first.y(); y <= last.y(); ++y)
       for (int x = first.x(); x <= last.x(); ++x) {
-        const std::size_t i = index(x, y);
-        const double distance = distance_to(rings[0], centre(x, y));
-        const bool inner = inside_rings(rings, centre(x, y));
-        if (inner) inside_[i] = true;
-        if (inner || distance < beside_room) beside_[i] = true;
-        if (distance > beyond_reach) continue;
-        for (const auto& level : levels_[i])
-          if (level.count >= few_points && std::abs(level.z() - floor) < same_floor) {
-            floor_[i] = true;
-            heights_[i] = floor;
-          }
+        const bool inner = inside_rings(room.rings, centre(x, y));
+        const double distance = distance_to_rings(room.rings, centre(x, y));
+        if (inner || distance <= reach) work(index(x, y), inner, distance);
       }
-  }
-
-  static double distance_to(const std::vector<Eigen::Vector2d>& ring, const Eigen::Vector2d& p) {
-    double nearest = 1e300;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Eigen::Vector2d &a = ring[i], ab = ring[(i + 1) % ring.size()] - a;
-      const double t = std::clamp(ab.squaredNorm() > 0 ? (p - a).dot(ab) / ab.squaredNorm() : 0, 0.0, 1.0);
-      nearest = std::min(nearest, (a + t * ab - p).norm());
-    }
-    return nearest;
   }
 
   /// The connected piece that a square is part of; its squares are taken.
@@ -229,7 +252,21 @@ class BeyondSquares {
 }  // namespace
 
 FloorBeyond floor_beyond_rooms(const Building& building, const PlanePrimitives& planes) {
-  return BeyondSquares(building, planes).run();
+  std::map<std::int32_t, std::vector<RoomSpan>> storeys;
+  for (const auto& room : building.rooms)
+    if (!room.outline.empty()) storeys[room.storey].push_back(span_of(building, room));
+  FloorBeyond result;
+  for (const auto& [storey, rooms] : storeys) {
+    std::vector<RoomSpan> others;
+    for (const auto& [other, theirs] : storeys)
+      if (other != storey) others.insert(others.end(), theirs.begin(), theirs.end());
+    const FloorBeyond found = BeyondSquares(rooms, others, planes).run();
+    result.area += found.area;
+    if (found.largest <= result.largest) continue;
+    result.largest = found.largest;
+    result.where = found.where;
+  }
+  return result;
 }
 
 }  // namespace atrium::layout

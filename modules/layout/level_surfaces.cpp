@@ -92,8 +92,8 @@ class Levels {
       best = std::max(best, l.area * l.sheltered);
       if (l.area < least_raised) continue;
       const Shelter::Piece piece = shelter.largest_piece(l.primitive);
-      l.raised =
-          piece.area >= least_raised && piece.walled >= least_walled && shelter.stooped(l.primitive) <= most_stooped;
+      l.raised = piece.area >= least_raised && piece.walled >= least_walled &&
+                 shelter.under_low_ceiling(l.primitive) <= most_low;
     }
     if (best >= limits_.least_area) return;
     for (Candidate& l : levels_) l.sheltered = 1;

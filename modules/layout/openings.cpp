@@ -51,20 +51,22 @@ double height_of(const BuildingOpening& opening) {
 }
 double width_of(const BuildingOpening& opening) { return (opening.outline_a[1] - opening.outline_a[0]).norm(); }
 
-/// Doors that are too low have upper parts that are hidden, or they are none if they are narrow, too: left out.
+/// Doors that are too low have upper parts that are hidden, or they are none if they are narrow or hardly higher than
+/// furniture: left out.
 void judge_low_doors(Building& building, double least_height, Context& context) {
-  constexpr double least_width = 0.6;  // metres; of a door whose upper part may be hidden
+  constexpr double least_width = 0.6, over_furniture = 1;  // metres; of a door whose upper part may be hidden
   std::size_t low = 0;
   double lowest = least_height;
   const auto left_out = std::erase_if(building.openings, [&](const BuildingOpening& opening) {
     if (opening.kind != "door" || height_of(opening) >= least_height) return false;
-    if (width_of(opening) < least_width) return true;
+    if (width_of(opening) < least_width || height_of(opening) < over_furniture) return true;
     ++low;
     lowest = std::min(lowest, height_of(opening));
     return false;
   });
   if (left_out > 0)
-    context.info(fmt::format("{} holes down to a floor are too small for doors: they are left closed", left_out));
+    context.warn(
+        fmt::format("holes in walls down to a floor are left closed, as they are too small for doors: {}", left_out));
   if (low > 0)
     context.warn(fmt::format("{} doors are lower than {:.2f} m, the lowest {:.2f} m: their upper parts may be hidden",
                              low, least_height, lowest));

@@ -180,10 +180,22 @@ class PrismRoomFinder {
     }
   }
 
+  // Behind a cupboard a wall is not seen: where nothing else parts two rooms, its gap does not join them.
+  static constexpr double unseen_passage = 0.75;  // metres: nobody saw the floor in it; wardrobes are less deep
+  static constexpr double seen_passage = 0.5;     // metres
+  static constexpr double own_room = 1;           // m²: what is smaller is part of its neighbour
+
   struct Contact {
     std::size_t a = 0, b = 0;
     double area = 0;
+    double width = 0;   ///< of what no wall covers, metres
+    bool seen = false;  ///< the floor on both sides
   };
+
+  bool floor_seen(std::size_t interval) const {
+    constexpr double partly = 0.2;  // of the cell
+    return space_.stacks[intervals_[interval].cell].cover[intervals_[interval].low] >= partly;
+  }
 
   void find_contacts() {
     constexpr double mostly = 0.5;
@@ -201,39 +213,91 @@ class PrismRoomFinder {
               area += piece;
               walled += piece * std::max(walls_(e, 0, i), walls_(e, 1, k));
             }
-          if (area > one_height * length && walled <= mostly * area) contacts_.push_back({a, b, area});
+          if (area > one_height * length && walled <= mostly * area)
+            contacts_.push_back({a, b, area, length * (1 - walled / area), floor_seen(a) && floor_seen(b)});
         }
     }
     std::stable_sort(contacts_.begin(), contacts_.end(),
                      [](const Contact& a, const Contact& b) { return a.area > b.area; });
   }
 
-  void find_rooms() {
-    const std::size_t n = intervals_.size();
-    std::vector<std::size_t> of(n);
-    std::iota(of.begin(), of.end(), 0);
-    std::vector<std::vector<std::size_t>> members(n);
-    std::vector<std::set<std::size_t>> cells(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      members[i] = {i};
-      cells[i] = {intervals_[i].cell};
-    }
-    for (const Contact& contact : contacts_) {
-      std::size_t a = of[contact.a], b = of[contact.b];
-      if (a == b) continue;
+  /// Parts of the building that are joined to rooms.
+  struct Parts {
+    std::vector<std::size_t> of;  ///< of an interval: its part
+    std::vector<std::vector<std::size_t>> members;
+    std::vector<std::set<std::size_t>> cells;
+    std::vector<double> area;
+
+    /// Whether that could be: no part lies over itself.
+    bool join(std::size_t a, std::size_t b) {
       if (members[a].size() < members[b].size()) std::swap(a, b);
       if (std::any_of(cells[b].begin(), cells[b].end(), [&](std::size_t c) { return cells[a].count(c) != 0; }))
-        continue;
+        return false;
       for (const auto i : members[b]) of[i] = a;
       members[a].insert(members[a].end(), members[b].begin(), members[b].end());
       cells[a].merge(cells[b]);
+      area[a] += area[b];
       members[b].clear();
+      return true;
     }
-    for (std::size_t a = 0; a < n; ++a) {
-      if (members[a].empty()) continue;
+  };
+
+  Parts single_parts() const {
+    const std::size_t n = intervals_.size();
+    Parts parts{std::vector<std::size_t>(n), std::vector<std::vector<std::size_t>>(n),
+                std::vector<std::set<std::size_t>>(n), std::vector<double>(n)};
+    for (std::size_t i = 0; i < n; ++i) {
+      parts.of[i] = i;
+      parts.members[i] = {i};
+      parts.cells[i] = {intervals_[i].cell};
+      parts.area[i] = space_.plan.cells[intervals_[i].cell].area;
+    }
+    return parts;
+  }
+
+  /// Joins parts that hang together by all of the gaps between them, the widest first. Returns whether any did.
+  bool join_round(Parts& parts) const {
+    struct Passage {
+      std::size_t a = 0, b = 0;  ///< an interval of each part
+      double area = 0, width = 0, seen = 0;
+    };
+    std::map<std::pair<std::size_t, std::size_t>, Passage> found;
+    for (const Contact& contact : contacts_) {
+      const auto key = std::minmax(parts.of[contact.a], parts.of[contact.b]);
+      if (key.first == key.second) continue;
+      Passage& passage = found.try_emplace(key, Passage{contact.a, contact.b}).first->second;
+      passage.area += contact.area;
+      passage.width += contact.width;
+      passage.seen += contact.seen ? contact.width : 0;
+    }
+    std::vector<Passage> passages;
+    passages.reserve(found.size());
+    for (const auto& [key, passage] : found) passages.push_back(passage);
+    std::stable_sort(passages.begin(), passages.end(),
+                     [](const Passage& l, const Passage& r) { return l.area > r.area; });
+    bool joined = false;
+    for (const Passage& passage : passages) {
+      const std::size_t a = parts.of[passage.a], b = parts.of[passage.b];
+      if (a == b) continue;
+      const bool leads_on = passage.width >= unseen_passage || passage.seen >= seen_passage ||
+                            std::min(parts.area[a], parts.area[b]) < own_room;
+      if (leads_on && parts.join(a, b)) joined = true;
+    }
+    return joined;
+  }
+
+  void find_rooms() {
+    Parts parts = single_parts();
+    for (const Contact& contact : contacts_)
+      if (const std::size_t a = parts.of[contact.a], b = parts.of[contact.b]; a != b && contact.width >= unseen_passage)
+        parts.join(a, b);
+    while (join_round(parts)) {
+    }
+    for (auto& members : parts.members) {
+      if (members.empty()) continue;
       PrismRoom room;
-      std::sort(members[a].begin(), members[a].end());
-      for (const auto i : members[a]) add(i, room);
+      std::sort(members.begin(), members.end());
+      for (const auto i : members) add(i, room);
       room.floor /= room.area;
       room.ceiling /= room.area;
       rooms_.push_back(std::move(room));

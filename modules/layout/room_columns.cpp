@@ -25,17 +25,6 @@ Rings rings_of(const BuildingRoom& room) {
   return rings;
 }
 
-double distance_to(const Rings& rings, const Eigen::Vector2d& p) {
-  double nearest = 1e300;
-  for (const auto& ring : rings)
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Eigen::Vector2d &a = ring[i], d = ring[(i + 1) % ring.size()] - a;
-      const double along = d.squaredNorm() > 0 ? std::clamp(d.dot(p - a) / d.squaredNorm(), 0.0, 1.0) : 0;
-      nearest = std::min(nearest, (a + along * d - p).norm());
-    }
-  return nearest;
-}
-
 /// The height of the room's floor or ceiling over a place, and whether it was seen there.
 bool level_over(const Building& building, const BuildingRoom& room, const std::vector<FaceGrid>& grids,
                 SurfaceClass surface, const Eigen::Vector2d& p, double& height, bool& seen) {
@@ -71,7 +60,7 @@ RoomColumns columns_of(const Building& building, const BuildingRoom& room, const
       column.inside = inside_rings(rings, p) &&
                       level_over(building, room, grids, SurfaceClass::floor, p, column.floor, column.floor_seen) &&
                       level_over(building, room, grids, SurfaceClass::ceiling, p, column.ceiling, column.ceiling_seen);
-      column.apart = column.inside && distance_to(rings, p) > apart;
+      column.apart = column.inside && distance_to_rings(rings, p) > apart;
     }
   return result;
 }

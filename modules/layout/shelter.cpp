@@ -89,7 +89,7 @@ double Shelter::covered(std::size_t floor) const {
   return static_cast<double>(std::count_if(places.begin(), places.end(), under)) / static_cast<double>(places.size());
 }
 
-double Shelter::stooped(std::size_t floor) const {
+double Shelter::under_low_ceiling(std::size_t floor) const {
   constexpr double least_ceiling = 2, over = 0.3;  // m², which undersides of cupboards do not have; metres
   const auto places = places_of(footprints_[floor].raster, 40 * most_places);
   if (places.empty()) return 0;

@@ -10,7 +10,7 @@ constexpr double least_walled = 0.7;      ///< of the rim of a raised floor; a b
 constexpr double least_raised = 3.0;      ///< m²: a smaller level surface over the floor is furniture
 constexpr double least_sheltered = 0.25;  ///< of a floor: less of it than this is the ground outside
 
-constexpr double most_stooped = 0.7;  ///< of a raised floor under which one cannot stand: a worktop
+constexpr double most_low = 0.7;  ///< of a raised floor under which one cannot stand: a worktop
 
 /// How far a floor is part of a building, told by what stands over and around it: the ground outside that a scan shows
 /// through windows can be larger than all rooms.
@@ -22,7 +22,7 @@ class Shelter {
   /// Share of a floor's squares that lie `min_clearance` or more under a surface that looks down.
   double covered(std::size_t floor) const;
   /// Share of a floor's squares that lie less than `min_clearance` under the lowest surface of 2 m² or more over them.
-  double stooped(std::size_t floor) const;
+  double under_low_ceiling(std::size_t floor) const;
   /// Share of directions, from places of the floor and level with its walls, in which a wall stands that looks towards
   /// the place, with no wall's back before it. Near 1 in rooms, whatever their size; below 0.5 beside a facade.
   double enclosed(std::size_t floor) const;

@@ -100,8 +100,8 @@ class Finder {
       best = std::max(best, l.sheltered_area());
       if (l.slanted || l.area < least_raised) continue;
       const Shelter::Piece piece = shelter.largest_piece(l.primitive);
-      l.raised =
-          piece.area >= least_raised && piece.walled >= least_walled && shelter.stooped(l.primitive) <= most_stooped;
+      l.raised = piece.area >= least_raised && piece.walled >= least_walled &&
+                 shelter.under_low_ceiling(l.primitive) <= most_low;
     }
     double left_out = 0;
     for (Level& l : levels_) {

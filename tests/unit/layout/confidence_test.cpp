@@ -249,6 +249,24 @@ TEST(Confidence, FloorBetweenWallsBesideTheRoomsIsWarnedOfAndATerraceIsNot) {
   EXPECT_FALSE(beyond(0.6, 2).warnings->mention("between walls")) << "a threshold";
 }
 
+TEST(Confidence, ARoomOverAMissingOneHidesNothing) {
+  const auto seen = [](double upper_floor) {
+    Scene scene = shown({});
+    scene.floor(4.1, 1, 7.1, 2).wall(7.1, 1, 7.1, 2, 0, 2);
+    scene.floor(4.1, 0, 8, 3, upper_floor)
+        .walls({{4.1, 0}, {8, 0}, {8, 3}, {4.1, 3}}, 0, upper_floor, upper_floor + 2.5);
+    BoxBuilding b;
+    b.room(0, 0, 4, 3);
+    b.room(4.1, 0, 8, 3, upper_floor, upper_floor + 2.5, upper_floor > 1 ? 1 : 0);
+    b.building.storeys.push_back({2.8, 2.5});
+    const auto result = judged(b.building, scene);
+    EXPECT_EQ(result.error, "");
+    return result.warnings->mention("m2 of floor between walls are in no room");
+  };
+  EXPECT_TRUE(seen(2.8));
+  EXPECT_FALSE(seen(0)) << "the room itself";
+}
+
 TEST(Confidence, AHallWhoseCeilingIsHigherThanItsRoomIsWarnedOf) {
   Scene scene = shown({.ceiling = false, .height = 5});
   scene.ceiling(0, 0, 4, 3, 5);

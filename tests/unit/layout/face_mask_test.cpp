@@ -55,6 +55,20 @@ TEST(FaceMask, ASinglePointCoversItsOwnSquare) {
   EXPECT_EQ(without.count(all(mask), Square::hidden), mask.count(all(mask), Square::hidden) + 1);
 }
 
+TEST(FaceMask, StraysInAHoleCoverTheirOwnSquaresOnly) {
+  const auto hidden = [](const std::vector<Vector2d>& strays) {
+    FaceMask mask = hidden_mask(30, 30);
+    auto points = frame(0.07);  // most points reach one square far
+    points.insert(points.end(), strays.begin(), strays.end());
+    EXPECT_NEAR(mask.cover(points, 0.4), 0.1, 1e-9);
+    return mask.count({Vector2i(10, 10), Vector2i(19, 19)}, Square::hidden);
+  };
+  // As many in the hole as would be a handful within 0.4 m, but not within 0.1 m.
+  const std::vector<Vector2d> strays = {{1.25, 1.25}, {1.55, 1.25}, {1.75, 1.35},
+                                        {1.25, 1.65}, {1.55, 1.65}, {1.75, 1.75}};
+  EXPECT_EQ(hidden(strays), hidden({}) - strays.size());
+}
+
 TEST(FaceMask, TheBestRectangleLeavesOutWhatHangsOnToIt) {
   FaceMask mask = hidden_mask(30, 20);
   mask.fill(all(mask), Square::solid);

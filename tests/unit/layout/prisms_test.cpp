@@ -102,6 +102,25 @@ TEST(Prisms, AStoreysElevationIsThatOfItsLargestRoom) {
   EXPECT_NEAR(layout.building.storeys[0].elevation, 0, 1e-6);
 }
 
+/// Two rooms of 4 m whose common wall ends before the wall y = 4, at the line of low fronts; the ceiling goes on over
+/// the gap.
+std::size_t rooms_with_gap(double gap, bool floor_in_it) {
+  Scene scene;
+  scene.walls({{0, 0}, {8, 0}, {8, 4}, {0, 4}}).ceiling(0, 0, 8, 4);
+  scene.wall(3.94, 0, 3.94, 4 - gap).wall(4.06, 4 - gap, 4.06, 0);
+  scene.wall(3.9, 4 - gap, 0.1, 4 - gap, 0, 1.2).wall(7.9, 4 - gap, 4.1, 4 - gap, 0, 1.2);
+  scene.floor(0, 0, 8, 4, 0, [&](const Eigen::Vector3d& p) { return p.y() < 4 - gap || floor_in_it; });
+  return built(prisms_of(scene.planes())).building.rooms.size();
+}
+
+TEST(Prisms, NobodyGoesThroughTheGapBehindACupboard) {
+  EXPECT_EQ(rooms_with_gap(0.3, false), 2U);
+  EXPECT_EQ(rooms_with_gap(0.65, false), 2U) << "a wardrobe";
+  EXPECT_EQ(rooms_with_gap(0.65, true), 1U) << "a passage: its floor was seen";
+  EXPECT_EQ(rooms_with_gap(0.3, true), 2U) << "a column's width from the wall";
+  EXPECT_EQ(rooms_with_gap(1, false), 1U);
+}
+
 TEST(Prisms, SlabsWithoutThicknessPartStoreys) {
   Scene scene;
   add_room(scene, 0, 0, 5, 4, 0, 2.5);

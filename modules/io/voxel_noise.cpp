@@ -1,0 +1,165 @@
+#include "modules/io/voxel_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace atrium::io {
+namespace {
+
+using Place = std::array<std::uint32_t, 3>;
+
+Place coarse(const Place& place, unsigned bits) { return {place[0] >> bits, place[1] >> bits, place[2] >> bits}; }
+
+/// Numbers places in the order in which they come.
+class PlaceTable {
+ public:
+  std::uint32_t add(const Place& place) {
+    if (2 * (keys_.size() + 1) > table_.size()) grow();
+    const std::uint64_t key = key_of(place);
+    const std::size_t at = slot(key);
+    if (table_[at] == 0) {
+      keys_.push_back(key);
+      table_[at] = static_cast<std::uint32_t>(keys_.size());
+    }
+    return table_[at] - 1;
+  }
+  std::optional<std::uint32_t> find(const Place& place) const {
+    const std::uint32_t entry = table_.empty() ? 0 : table_[slot(key_of(place))];
+    return entry == 0 ? std::nullopt : std::optional(entry - 1);
+  }
+  std::size_t size() const { return keys_.size(); }
+  Place place(std::size_t number) const {
+    const std::uint64_t key = keys_[number];
+    return {static_cast<std::uint32_t>(key & mask), static_cast<std::uint32_t>(key >> axis_bits & mask),
+            static_cast<std::uint32_t>(key >> 2 * axis_bits)};
+  }
+  /// Calls work(number) for each place that is there of the 27 around one.
+  template <class Work>
+  void around(const Place& place, const Work& work) const {
+    const auto first = [&](std::size_t a) { return place[a] > 0 ? place[a] - 1 : 0; };
+    for (std::uint32_t z = first(2); z <= place[2] + 1; ++z)
+      for (std::uint32_t y = first(1); y <= place[1] + 1; ++y)
+        for (std::uint32_t x = first(0); x <= place[0] + 1; ++x)
+          if (const auto number = find({x, y, z})) work(*number);
+  }
+
+ private:
+  static constexpr unsigned axis_bits = 21;
+  static constexpr std::uint64_t mask = (std::uint64_t{1} << axis_bits) - 1;
+
+  static std::uint64_t key_of(const Place& p) {
+    return (p[0] & mask) | (p[1] & mask) << axis_bits | static_cast<std::uint64_t>(p[2] & mask) << 2 * axis_bits;
+  }
+  /// Of a key, or where it would be.
+  std::size_t slot(std::uint64_t key) const {
+    const std::size_t last = table_.size() - 1;
+    std::size_t at = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ULL) >> 20U) & last;
+    while (table_[at] != 0 && keys_[table_[at] - 1] != key) at = (at + 1) & last;
+    return at;
+  }
+  void grow() {
+    table_.assign(std::max<std::size_t>(64, 2 * table_.size()), 0);
+    for (std::size_t i = 0; i < keys_.size(); ++i) table_[slot(keys_[i])] = static_cast<std::uint32_t>(i + 1);
+  }
+
+  std::vector<std::uint32_t> table_;  // number plus 1; open addressing, a power of two long
+  std::vector<std::uint64_t> keys_;
+};
+
+/// Points by how many points their voxel holds, in quarters of an octave.
+class Histogram {
+ public:
+  void add(std::uint64_t points) { bins_[bin(points)] += points; }
+  void add(const Histogram& other) {
+    for (std::size_t i = 0; i < bins_.size(); ++i) bins_[i] += other.bins_[i];
+  }
+  /// How many points the voxel of the median point holds.
+  double median() const {
+    std::uint64_t all = 0, below = 0;
+    for (const auto points : bins_) all += points;
+    std::size_t i = 0;
+    while (i + 1 < bins_.size() && 2 * (below + bins_[i]) < all) below += bins_[i++];
+    return std::exp2(static_cast<double>(i) / parts);
+  }
+
+ private:
+  static constexpr double parts = 4;
+  static std::size_t bin(std::uint64_t points) {
+    return std::min<std::size_t>(127, static_cast<std::size_t>(parts * std::log2(static_cast<double>(points))));
+  }
+  std::array<std::uint64_t, 128> bins_{};
+};
+
+class VoxelNoise {
+ public:
+  VoxelNoise(const std::vector<VoxelCount>& voxels, double share, const Context& context)
+      : voxels_(voxels), share_(share), context_(context) {}
+
+  std::vector<bool> run() {
+    number_places();
+    std::vector<std::uint64_t> fullest(most_.size());
+    context_.parallel_for(fullest.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b)
+        blocks_.around(blocks_.place(b), [&](std::uint32_t i) { fullest[b] = std::max(fullest[b], most_[i]); });
+    });
+    std::vector<double> usual(histograms_.size());
+    context_.parallel_for(usual.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c) {
+        Histogram all;
+        cells_.around(cells_.place(c), [&](std::uint32_t i) { all.add(histograms_[i]); });
+        usual[c] = all.median();
+      }
+    });
+    std::vector<char> noise(voxels_.size(), 0);
+    context_.parallel_for(noise.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        noise[i] = is_tail(voxels_[i], fullest) || is_stray(voxels_[i], usual) ? 1 : 0;
+    });
+    return {noise.begin(), noise.end()};
+  }
+
+ private:
+  static constexpr unsigned block_bits = 2, cell_bits = 5;
+
+  void number_places() {
+    for (const VoxelCount& voxel : voxels_) {
+      numbers_.add(voxel.place);
+      const std::uint32_t block = blocks_.add(coarse(voxel.place, block_bits));
+      if (block == most_.size()) most_.push_back(0);
+      most_[block] = std::max(most_[block], voxel.points);
+      const std::uint32_t cell = cells_.add(coarse(voxel.place, cell_bits));
+      if (cell == histograms_.size()) histograms_.emplace_back();
+      histograms_[cell].add(voxel.points);
+    }
+  }
+
+  bool is_tail(const VoxelCount& voxel, const std::vector<std::uint64_t>& fullest) const {
+    const auto most = static_cast<double>(fullest[*blocks_.find(coarse(voxel.place, block_bits))]);
+    return static_cast<double>(voxel.points) < share_ * most;
+  }
+
+  bool is_stray(const VoxelCount& voxel, const std::vector<double>& usual) const {
+    constexpr double surface = 9;  // of 27 voxels
+    const double least = share_ * surface * usual[*cells_.find(coarse(voxel.place, cell_bits))];
+    if (static_cast<double>(voxel.points) >= least) return false;
+    std::uint64_t points = 0;
+    numbers_.around(voxel.place, [&](std::uint32_t i) { points += voxels_[i].points; });
+    return static_cast<double>(points) < least;
+  }
+
+  const std::vector<VoxelCount>& voxels_;
+  double share_;
+  const Context& context_;
+  PlaceTable numbers_, blocks_, cells_;
+  std::vector<std::uint64_t> most_;    // points in a voxel of a block
+  std::vector<Histogram> histograms_;  // of a cell
+};
+
+}  // namespace
+
+std::vector<bool> noise_voxels(const std::vector<VoxelCount>& voxels, double share, const Context& context) {
+  return VoxelNoise(voxels, share, context).run();
+}
+
+}  // namespace atrium::io
