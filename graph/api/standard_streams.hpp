@@ -2,6 +2,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cstdio>
+
 namespace atrium {
 
 /// Opens /dev/null as the file `number` if that is closed. Returns whether it was open before.
@@ -25,5 +27,29 @@ inline bool secure_standard_streams() {
   keep_occupied(STDERR_FILENO, O_WRONLY);
   return has_output;
 }
+
+/// While it lives, what is printed to the standard output goes to the standard error: the libraries behind nodes print
+/// what they like (PCL's solvers do), and the standard output holds results only. The buffers of stdout are emptied
+/// before and after. Of the whole program: one at a time, and nothing else may be printing results.
+class StandardOutputSetAside {
+ public:
+  StandardOutputSetAside() {
+    std::fflush(stdout);
+    constexpr int above_the_standard_ones = 3;
+    kept_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, above_the_standard_ones);
+    if (kept_ >= 0) ::dup2(STDERR_FILENO, STDOUT_FILENO);
+  }
+  ~StandardOutputSetAside() {
+    std::fflush(stdout);
+    if (kept_ < 0) return;
+    ::dup2(kept_, STDOUT_FILENO);
+    ::close(kept_);
+  }
+  StandardOutputSetAside(const StandardOutputSetAside&) = delete;
+  StandardOutputSetAside& operator=(const StandardOutputSetAside&) = delete;
+
+ private:
+  int kept_ = -1;
+};
 
 }  // namespace atrium

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "graph/api/standard_streams.hpp"
 #include "graph/cli/results.hpp"
 #include "graph/cli/signals.hpp"
 #include "graph/cli/verbs.hpp"
@@ -59,6 +60,7 @@ int run_file(const RunArguments& options) {
   auto run = run_options<RunOptions>(options.run, cache.get(), out);
   run.cancel = signals.flag();
   const RunResult result = [&] {
+    const StandardOutputSetAside results_only;
     ConsoleProgress progress(console_options(stderr, options.run.quiet));
     return run_pipeline(loaded.pipeline, run, progress);
   }();

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/api/json_text.hpp"
+#include "graph/api/standard_streams.hpp"
 #include "graph/cache/build_ids.hpp"
 #include "graph/cache/upkeep.hpp"
 #include "graph/cli/signals.hpp"
@@ -134,6 +135,7 @@ int run_variants(const SweepArguments& options) {
   const bool quiet = options.run.quiet;
   if (!quiet) print_notes(loaded.load.plan);
   const SweepResult result = [&] {
+    const StandardOutputSetAside results_only;
     ConsoleProgress progress(console_options(stderr, quiet));
     return run_sweep(*loaded.sweep, loaded.load.plan, build_of_all(registry), sweep_options, progress);
   }();

@@ -54,6 +54,7 @@ int work_here(const WorkArguments& options) {
 int work(const WorkArguments& options) {
   const CancelOnSignal signals;
   Registry registry;
+  const StandardOutputSetAside results_only;
   ConsoleProgress progress(console_options(stderr, false));
   run_shard(fs::absolute(options.folder).lexically_normal(), options.tasks.front(), own_program(), options.run.threads,
             build_of_all(registry), signals.flag(), registry, progress);

@@ -12,6 +12,8 @@ foreach(folder graph/api graph/cache graph/pipeline graph/run modules/types modu
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${header_dir}/${parent} COMPONENT development
           FILES_MATCHING PATTERN "*.hpp")
 endforeach()
+# For third parties' nodes around PCL (share/doc/tutorial.md).
+install(FILES ${PROJECT_SOURCE_DIR}/modules/pcl/pcl_cloud.hpp DESTINATION ${header_dir}/modules/pcl COMPONENT development)
 
 install(EXPORT atriumTargets NAMESPACE atrium:: DESTINATION ${package_dir} COMPONENT development)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/atriumConfig.cmake.in ${PROJECT_BINARY_DIR}/atriumConfig.cmake

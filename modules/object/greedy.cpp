@@ -1,6 +1,5 @@
 #include "modules/object/greedy.hpp"
 
-#include <pcl/console/print.h>
 #include <pcl/search/kdtree.h>
 #include <pcl/surface/gp3.h>
 
@@ -10,8 +9,8 @@
 #include <numeric>
 #include <tuple>
 
-#include "modules/object/pcl_points.hpp"
-#include "modules/object/surface.hpp"
+#include "modules/object/pcl_surfaces.hpp"
+#include "modules/pcl/pcl_cloud.hpp"
 
 namespace atrium::object {
 namespace {
@@ -33,20 +32,21 @@ std::vector<std::uint32_t> distinct(const Cloud& cloud) {
   return order;
 }
 
-RawSurface reconstruct(const Cloud& cloud, const Greedy::Params& params) {
+}  // namespace
+
+RawSurface greedy_surface(const Cloud& cloud, const GreedySettings& settings) {
   constexpr double radians = std::numbers::pi / 180;
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   pcl::GreedyProjectionTriangulation<pcl::PointNormal> greedy;
-  greedy.setSearchRadius(params.search_radius);
-  greedy.setMu(params.reach);
+  greedy.setSearchRadius(settings.search_radius);
+  greedy.setMu(settings.reach);
   greedy.setMaximumNearestNeighbors(
-      static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(params.max_neighbours), cloud.size())));
-  greedy.setMaximumSurfaceAngle(params.max_surface_angle * radians);
-  greedy.setMinimumAngle(params.min_angle * radians);
-  greedy.setMaximumAngle(params.max_angle * radians);
-  greedy.setNormalConsistency(true);
+      static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(settings.max_neighbours), cloud.size())));
+  greedy.setMaximumSurfaceAngle(settings.max_surface_angle * radians);
+  greedy.setMinimumAngle(settings.min_angle * radians);
+  greedy.setMaximumAngle(settings.max_angle * radians);
+  greedy.setNormalConsistency(settings.normal_consistency);
   greedy.setConsistentVertexOrdering(true);
-  const auto points = to_pcl(cloud);
+  const auto points = pcl_nodes::to_pcl<pcl::PointNormal>(cloud);
   pcl::search::KdTree<pcl::PointNormal>::Ptr tree(new pcl::search::KdTree<pcl::PointNormal>);
   tree->setInputCloud(points);
   greedy.setInputCloud(points);
@@ -56,15 +56,9 @@ RawSurface reconstruct(const Cloud& cloud, const Greedy::Params& params) {
 
   RawSurface surface;
   surface.vertices = cloud.points;
-  for (const auto& polygon : polygons)
-    if (polygon.vertices.size() == 3)
-      surface.triangles.push_back({static_cast<std::uint32_t>(polygon.vertices[0]),
-                                   static_cast<std::uint32_t>(polygon.vertices[1]),
-                                   static_cast<std::uint32_t>(polygon.vertices[2])});
+  surface.triangles = pcl_nodes::triangles_of(polygons);
   return surface;
 }
-
-}  // namespace
 
 Greedy::Out Greedy::run(const In& in, const Params& params, Context& context) {
   Out out;
@@ -72,7 +66,14 @@ Greedy::Out Greedy::run(const In& in, const Params& params, Context& context) {
   if (!is_surface(*in.cloud, context)) return out;
   const Cloud cloud = select(*in.cloud, distinct(*in.cloud));
   if (!is_surface(cloud, context)) return out;
-  out.mesh = finished(reconstruct(cloud, params), cloud, std::numeric_limits<float>::infinity(), context);
+  GreedySettings settings;
+  settings.search_radius = params.search_radius;
+  settings.reach = params.reach;
+  settings.max_neighbours = params.max_neighbours;
+  settings.max_surface_angle = params.max_surface_angle;
+  settings.min_angle = params.min_angle;
+  settings.max_angle = params.max_angle;
+  out.mesh = finished(greedy_surface(cloud, settings), cloud, std::numeric_limits<float>::infinity(), context);
   return out;
 }
 

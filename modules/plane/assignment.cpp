@@ -74,6 +74,8 @@ class Assigner {
   std::vector<std::uint32_t> all_;
 };
 
+}  // namespace
+
 PlanePrimitive fit_primitive(const Cloud& cloud, std::vector<std::uint32_t> inliers, const Eigen::Vector3d& side) {
   PlanePrimitive primitive;
   const Eigen::Vector3d reference = cloud.points[inliers.front()].cast<double>();
@@ -91,8 +93,6 @@ PlanePrimitive fit_primitive(const Cloud& cloud, std::vector<std::uint32_t> inli
   primitive.inliers = std::move(inliers);
   return primitive;
 }
-
-}  // namespace
 
 void Assignment::add(const MortonOrder& order, const PointOctree& octree, const std::vector<Patch>& patches,
                      std::size_t first, const Tolerance& tolerance, const Context& context) {

@@ -30,6 +30,10 @@ struct Assignment {
            const Tolerance& tolerance, const Context& context);
 };
 
+/// The points of one plane as a primitive: the plane by least squares, turned to the mean of their normals (to `side`
+/// where the cloud has none). At least one point.
+PlanePrimitive fit_primitive(const Cloud& cloud, std::vector<std::uint32_t> inliers, const Eigen::Vector3d& side);
+
 /// The patches that own at least `min_points` points as primitives over the cloud: planes refitted to what they own and
 /// turned to the mean of their points' normals (to the patch's own normal where the cloud has none).
 PlanePrimitives fit_primitives(const std::shared_ptr<const Cloud>& cloud, const MortonOrder& order,

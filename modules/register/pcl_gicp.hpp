@@ -1,6 +1,5 @@
 #pragma once
-#include <Eigen/Geometry>
-#include <vector>
+#include "modules/register/register_scans.hpp"
 
 namespace atrium::registration {
 
@@ -9,14 +8,11 @@ struct GicpSettings {
   int iterations = 100;
   double translation_epsilon = 1e-4;  ///< metres
   double rotation_epsilon = 1e-4;     ///< radians
-};
-struct GicpResult {
-  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();  ///< from source to target
-  bool converged = false;
+  int neighbours = 20;                ///< from which a point's covariance is taken (PCL's correspondence randomness)
+  int optimizer_iterations = 20;      ///< of each round
 };
 
 /// PCL's Generalized ICP. At least 20 points each.
-GicpResult align_gicp(const std::vector<Eigen::Vector3f>& source, const std::vector<Eigen::Vector3f>& target,
-                      const GicpSettings& settings);
+PairMotion align_gicp(const Points& source, const Points& target, const GicpSettings& settings);
 
 }  // namespace atrium::registration

@@ -7,7 +7,8 @@ for instance: share/examples/scenes.py build/bin/atrium -s scene/scan.sensors=tr
 
 Without SCENE: all of pipelines/comparisons/scenes that are simulated. Settings go to every run. Rooms: found, of them those
 that share more than half of their plan with a true room on their level, and true ones. Completeness and correctness are within
-5 cm. The area's error is the largest of a matched room, beside its true area. What atrium refuses has its error instead.
+5 cm. The area's error is the largest of a matched room, beside its true area. Doors and windows: right (half of the joint area is
+common), found, true. What atrium refuses has its error instead.
 Exit code 1 if a scene lacks rooms or has too many.
 """
 import argparse
@@ -74,6 +75,41 @@ def largest_error(true, found):
     return len(left), worst
 
 
+def rectangles(openings, key, kinds):
+    return [opening[key] for opening in openings if opening['kind'] in kinds]
+
+
+def overlap(found, true):
+    """Intersection over union of two rectangles in walls, seen on the wall of the true one; 0 if they are 0.5 m apart across it."""
+    feet = sorted(true, key=lambda p: p[2])[:2]
+    length = math.dist(feet[0][:2], feet[1][:2]) or 1
+    along = [(feet[1][k] - feet[0][k]) / length for k in (0, 1)]
+    spans = []
+    for ring in (found, true):
+        at = [(p[0] - feet[0][0]) * along[0] + (p[1] - feet[0][1]) * along[1] for p in ring]
+        off = [(p[1] - feet[0][1]) * along[0] - (p[0] - feet[0][0]) * along[1] for p in ring]
+        spans.append((min(at), max(at), min(p[2] for p in ring), max(p[2] for p in ring), sum(off) / len(off)))
+    a, b = spans
+    if abs(a[4] - b[4]) > 0.5:
+        return 0
+    common = max(0, min(a[1], b[1]) - max(a[0], b[0])) * max(0, min(a[3], b[3]) - max(a[2], b[2]))
+    union = sum((s[1] - s[0]) * (s[3] - s[2]) for s in spans) - common
+    return common / union if union > 0 else 0
+
+
+def openings(out, kinds):
+    """"right / found / true": right ones share half of their joint area with a true one."""
+    true = rectangles(json.loads((out / 'truth.json').read_text())['openings'], 'outline', kinds)
+    found = rectangles(json.loads((out / 'model/building.json').read_text())['openings'], 'outline_a', kinds)
+    left, right = list(true), 0
+    for ring in found:
+        best = max(left, key=lambda t: overlap(ring, t), default=None)
+        if best is not None and overlap(ring, best) >= 0.5:
+            left.remove(best)
+            right += 1
+    return '%d / %d / %d' % (right, len(found), len(true))
+
+
 def run(atrium, pipeline, scene, settings, out):
     swap = 'scene.pipeline=%s' % (pipeline.parent / 'scenes' / (scene + '.yaml'))
     command = [atrium, 'run', str(pipeline), '-s', swap, '--out', str(out), '--quiet']
@@ -92,7 +128,7 @@ def row(result, seconds, out):
     if result.returncode:
         lines = [line for line in result.stderr.splitlines() if 'error' in line]
         said = lines[-1].replace('|', '/') if lines else 'exit code %d' % result.returncode
-        return ['refused'] + ['–'] * 4 + [str(warnings), '%.1f' % seconds, said], False
+        return ['refused'] + ['–'] * 6 + [str(warnings), '%.1f' % seconds, said], False
     metrics = json.loads((out / 'metrics.json').read_text())
 
     def percent(name):
@@ -106,7 +142,8 @@ def row(result, seconds, out):
     matched, (error, of) = largest_error(true, found)
     worst = '%+.2f of %.1f' % (error, of) if of else '–'
     return ['%d (%d) / %d' % (len(found), matched, len(true)), percent('structure.b50mm.completeness'),
-            percent('structure.b50mm.correctness'), worst, '%.2f' % confidence, str(warnings),
+            percent('structure.b50mm.correctness'), worst, openings(out, ('door', 'passage')), openings(out, ('window',)),
+            '%.2f' % confidence, str(warnings),
             '%.1f' % seconds, ''], len(found) == len(true) == matched
 
 
@@ -122,7 +159,8 @@ def main():
                                       if 'synth.scan' in path.read_text())
     folder = pathlib.Path(options.out or tempfile.mkdtemp())
     print('| scene | rooms found (right) / true | completeness [%] | correctness [%] | largest error of an area [m2] '
-          '| confidence | warnings | time [s] | error |\n| --- | --: | --: | --: | --: | --: | --: | --: | --- |')
+          '| doors | windows | confidence | warnings | time [s] | error |\n'
+          '| --- | --: | --: | --: | --: | --: | --: | --: | --: | --: | --- |')
     sound = True
     for scene in scenes:
         result, seconds = run(options.atrium, pipeline, scene, options.settings, folder / scene)

@@ -65,6 +65,13 @@ TEST_F(RunProgram, ResultsGoToStdoutEverythingElseToStderr) {
   EXPECT_EQ(manifest("r")["status"], "ok");
 }
 
+TEST_F(RunProgram, WhatLibrariesPrintGoesToStderr) {
+  pipeline("print");
+  const auto result = atrium({"run", "p.yaml", "--out", "r", "-s", "first.value=2 m"});
+  EXPECT_EQ(result.out, "number                    2\ntext    the sum is 5.000000\n");
+  EXPECT_NE(result.err.find("a remark of a library\n"), std::string::npos) << result.err;
+}
+
 TEST_F(RunProgram, JsonIsForScripts) {
   pipeline("pass");
   const auto result = atrium({"run", "p.yaml", "--out", "r", "-s", "first.value=2", "--json", "--quiet"});

@@ -8,7 +8,7 @@ struct Step {
   static constexpr std::string_view type = "trial.step";
   static constexpr std::string_view summary = "Passes, fails, or waits for the run to be cancelled.";
   static constexpr bool random = true;
-  enum class Mode { pass, fail, wait, ignore };
+  enum class Mode { pass, fail, wait, ignore, print };
   struct In {
     OptionalInput<double> after;
   };
@@ -25,8 +25,12 @@ struct Step {
                                              port<&Out::text>("The same in words.")};
   static constexpr auto params = std::tuple{
       param<&Params::value>(metres, unbounded, "A length."),
-      param<&Params::mode>({{"pass", Mode::pass}, {"fail", Mode::fail}, {"wait", Mode::wait}, {"ignore", Mode::ignore}},
-                           "ignore: waits, and does not listen to a cancellation.")};
+      param<&Params::mode>({{"pass", Mode::pass},
+                            {"fail", Mode::fail},
+                            {"wait", Mode::wait},
+                            {"ignore", Mode::ignore},
+                            {"print", Mode::print}},
+                           "ignore: waits, and does not listen to a cancellation; print: prints as libraries do.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 
