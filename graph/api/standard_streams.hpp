@@ -35,6 +35,7 @@ class StandardOutputSetAside {
  public:
   StandardOutputSetAside() {
     std::fflush(stdout);
+    was_good_ = std::ferror(stdout) == 0;
     constexpr int above_the_standard_ones = 3;
     kept_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, above_the_standard_ones);
     if (kept_ >= 0) ::dup2(STDERR_FILENO, STDOUT_FILENO);
@@ -44,12 +45,14 @@ class StandardOutputSetAside {
     if (kept_ < 0) return;
     ::dup2(kept_, STDOUT_FILENO);
     ::close(kept_);
+    if (was_good_) std::clearerr(stdout);  // what a full standard error has lost is no result
   }
   StandardOutputSetAside(const StandardOutputSetAside&) = delete;
   StandardOutputSetAside& operator=(const StandardOutputSetAside&) = delete;
 
  private:
   int kept_ = -1;
+  bool was_good_ = true;
 };
 
 }  // namespace atrium

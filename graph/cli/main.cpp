@@ -145,6 +145,7 @@ int main(int argc, char** argv) {
   cli::add_diff(app, exit_code);
   cli::add_graph(app, exit_code);
   cli::add_report(app, exit_code);
+  cli::add_view(app, exit_code);
   cli::add_schema(app, exit_code);
   cli::add_cache(app, exit_code);
   cli::add_why(app, exit_code);

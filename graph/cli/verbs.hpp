@@ -27,6 +27,7 @@ void add_sweep_work(CLI::App& sweep, int& exit_code);
 void add_diff(CLI::App& app, int& exit_code);
 void add_graph(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
+void add_view(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);
 void add_cache(CLI::App& app, int& exit_code);
 void add_why(CLI::App& app, int& exit_code);

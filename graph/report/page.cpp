@@ -143,19 +143,24 @@ Json variant_json(const SweepRecord& record, std::size_t v, const Attachments& a
   return json;
 }
 
+}  // namespace
+
+fs::path page_template(const std::string& name) {
+  const fs::path program = fs::canonical("/proc/self/exe");
+  return program.parent_path().parent_path() / "share/atrium" / name;
+}
+
 std::string read_page(const fs::path& page) {
   if (!fs::exists(page))
-    throw Error("the page that reports are written into is not there: " + page.string(),
+    throw Error("the page that is written into is not there: " + page.string(),
                 "esbuild bundles it when Atrium is built: ./share/install-packages, then ./share/build");
   return read_text(page);
 }
 
-}  // namespace
+// In JSON "<" stands in texts only: no text can end the element that the JSON is in.
+std::string embedded(const Json& json) { return replaced(json_text(json), "<", "\\u003c"); }
 
-fs::path page_template() {
-  const fs::path program = fs::canonical("/proc/self/exe");
-  return program.parent_path().parent_path() / "share/atrium/report.html";
-}
+std::string title_of(const RunRecord& run) { return fs::absolute(run.folder / ".").parent_path().filename().string(); }
 
 std::string page_data(const SweepRecord& record, const Attachments& attachments) {
   NodeNames nodes;
@@ -178,17 +183,21 @@ std::string page_data(const SweepRecord& record, const Attachments& attachments)
                   {"files", std::move(files)},
                   {"notes", std::move(notes)},
                   {"variants", std::move(variants)}};
-  // In JSON "<" stands in texts only: no text can end the element that the JSON is in.
-  return replaced(json_text(json), "<", "\\u003c");
+  return embedded(json);
 }
 
 std::size_t write_page(const fs::path& target, const SweepRecord& record, const Attachments& attachments,
                        const fs::path& page) {
-  const std::string text = read_page(page);
-  const auto data = text.find(data_mark);
-  const auto files = text.find(files_mark);
-  const auto title = text.find("<title>");
-  if (data == std::string::npos || files == std::string::npos || files < data || title > data)
+  return write_filled_page(target, record.title, page_data(record, attachments), attachments.files, page,
+                           read_page(page));
+}
+
+std::size_t write_filled_page(const fs::path& target, const std::string& title, const std::string& data,
+                              const std::vector<Attachment>& files, const fs::path& page, const std::string& text) {
+  const auto data_at = text.find(data_mark);
+  const auto files_at = text.find(files_mark);
+  const auto title_at = text.find("<title>");
+  if (data_at == std::string::npos || files_at == std::string::npos || files_at < data_at || title_at > data_at)
     throw Error(page.string() + " is no page of this version of Atrium", "build again: ./share/build");
   AtomicFile file(target);
   std::size_t size = 0;
@@ -197,21 +206,21 @@ std::size_t write_page(const fs::path& target, const SweepRecord& record, const 
     size += part.size();
   };
   const std::string_view whole = text;
-  const std::size_t name = title + std::string_view("<title>").size();
+  const std::size_t name = title_at + std::string_view("<title>").size();
   write(whole.substr(0, name));
-  write(replaced(replaced(record.title, "&", "&amp;"), "<", "&lt;") + " – ");
-  write(whole.substr(name, data - name));
+  write(replaced(replaced(title, "&", "&amp;"), "<", "&lt;") + " – ");
+  write(whole.substr(name, data_at - name));
   write("<script type=\"application/json\" id=\"data\">");
-  write(page_data(record, attachments));
+  write(data);
   write("</script>");
-  const std::size_t after = data + data_mark.size();
-  write(whole.substr(after, files - after));
-  for (std::size_t f = 0; f < attachments.files.size(); ++f) {
+  const std::size_t after = data_at + data_mark.size();
+  write(whole.substr(after, files_at - after));
+  for (std::size_t f = 0; f < files.size(); ++f) {
     write(fmt::format("<script type=\"text/plain\" id=\"file-{}\">", f));
-    write(attachments.files[f].base64);
+    write(files[f].base64);
     write("</script>\n");
   }
-  write(whole.substr(files + files_mark.size()));
+  write(whole.substr(files_at + files_mark.size()));
   file.commit();
   return size;
 }

@@ -60,7 +60,11 @@ RunResult Scheduler::run() {
       spawn_ = [&](std::size_t tasks) {
         for (std::size_t i = 0; i < tasks; ++i) group.run([this] { guarded_step(); });
       };
-      spawn_(ready_.size());
+      try {
+        spawn_(ready_.size());
+      } catch (...) {  // no memory for all of them: what has begun must end whole
+        end_by(std::current_exception());
+      }
       group.wait();
     });
     if (problem_) std::rethrow_exception(problem_);
@@ -146,10 +150,14 @@ void Scheduler::guarded_step() {
   try {
     if (!ended_) step();
   } catch (...) {
-    const std::lock_guard lock(mutex_);
-    if (!problem_) problem_ = std::current_exception();
-    ended_ = true;
+    end_by(std::current_exception());
   }
+}
+
+void Scheduler::end_by(std::exception_ptr problem) {
+  const std::lock_guard lock(mutex_);
+  if (!problem_) problem_ = std::move(problem);
+  ended_ = true;
 }
 
 void Scheduler::step() {

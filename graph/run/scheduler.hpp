@@ -68,6 +68,7 @@ class Scheduler {
   void begin_round();
   std::size_t schedule();
   void guarded_step();
+  void end_by(std::exception_ptr problem);
   void step();
   void execute(std::size_t n);
   bool call_watched(std::size_t n, Inputs inputs, std::vector<Value>& outputs, std::optional<std::uint64_t>& growth);

@@ -127,6 +127,7 @@ std::vector<HeatMapFace> captions(const Building& building, const std::vector<Fa
     const Figures figures = figures_of(faces[f].signed_distances);
     HeatMapFace item;
     item.distances = &faces[f];
+    item.face = f;
     item.storey = face.storey;
     item.caption = fmt::format("{} {}{}", name_of(face.surface), f,
                                face.room < 0 ? "" : ", " + building.rooms[static_cast<std::size_t>(face.room)].name);

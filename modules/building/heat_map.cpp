@@ -58,7 +58,8 @@ std::string label(double x, double y, const std::string& text, const char* style
 std::string face_at(const HeatMapFace& face, double x, double y, double cell, double range) {
   const FaceDistances& d = *face.distances;
   const double width = (d.high.x() - d.low.x()) * metre, height = (d.high.y() - d.low.y()) * metre, side = cell * metre;
-  std::string result = fmt::format(
+  std::string result = fmt::format("<g id=\"face-{}\">\n", face.face);
+  result += fmt::format(
       "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#f4f4f4\" stroke=\"#999\"/>\n", x, y,
       width, height);
   // Squares of one colour are one path.
@@ -71,7 +72,7 @@ std::string face_at(const HeatMapFace& face, double x, double y, double cell, do
   }
   for (const auto& [colour, path] : paths) result += fmt::format("<path fill=\"{}\" d=\"{}\"/>\n", colour, path);
   result += label(x, y + height + line_height, face.caption);
-  return result + label(x, y + height + 2 * line_height, face.figures, " fill=\"#555\"");
+  return result + label(x, y + height + 2 * line_height, face.figures, " fill=\"#555\"") + "</g>\n";
 }
 
 std::string scale_at(double x, double y, double range) {

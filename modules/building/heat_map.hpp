@@ -8,6 +8,7 @@ namespace atrium::building {
 
 struct HeatMapFace {
   const FaceDistances* distances = nullptr;
+  std::size_t face = 0;  ///< its number in the building: the group `face-12` in the page
   std::int32_t storey = 0;
   std::string caption, figures;
 };

@@ -47,7 +47,7 @@ void draw_areas(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey) {
   canvas.end_group();
   // A room's edge shows where no wall stands on it.
   canvas.begin_group("fill=\"#fbfaf7\" stroke=\"#8a8a8a\" stroke-width=\"0.18\" stroke-dasharray=\"1.6 0.9\"");
-  for (const auto& room : storey.rooms) pen.polygon(room.polygon);
+  for (const auto& room : storey.rooms) pen.polygon(room.polygon, fmt::format("data-room=\"{}\"", escaped(room.name)));
   canvas.end_group();
 }
 

@@ -21,7 +21,8 @@ enum class Axes { walls, input };
 /// has room for (1:50, 1:100, 1:200, 1:500, …) unless `scale` and `paper` say otherwise; `storey` draws one alone. Many
 /// storeys, whose buildings would be smaller than 25 mm there, go on A2, A1 or A0, or on a sheet as large as it takes:
 /// a plan that may choose its paper always fits. The plan is turned so that most walls are parallel to the sheet's
-/// edges, by at most 45°.
+/// edges, by at most 45°. For pages that show it, each storey is a group `storey-0`, …, in which the polygons of rooms
+/// have their names as `data-room`.
 ///
 /// A plan without storeys gives a sheet that says so, and a warning. Errors: no such storey; a plan that does not fit
 /// on the given paper, and which would do; a folder that cannot be written. Then no file is there.

@@ -32,8 +32,11 @@ std::vector<Role> surveyors_roles(const Fields& names, std::vector<Role> roles) 
 std::vector<Role> roles_of(const Fields& names) {
   std::vector<Role> roles;
   bool position[3] = {false, false, false};
+  Fields plain;
+  plain.reserve(names.size());
   for (auto name : names) {
     if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+    plain.push_back(name);
     Role role = role_of(name);
     if (role == Role::packed_colour || role == Role::source ||
         std::find(roles.begin(), roles.end(), role) != roles.end())
@@ -42,7 +45,7 @@ std::vector<Role> roles_of(const Fields& names) {
     if (role <= Role::z) position[static_cast<std::size_t>(role)] = true;
   }
   if (position[0] && position[1] && position[2]) return roles;
-  return surveyors_roles(names, std::move(roles));
+  return surveyors_roles(plain, std::move(roles));
 }
 
 /// What stands in brackets behind a name; empty if nothing does.

@@ -12,7 +12,6 @@
 namespace atrium::io {
 namespace {
 
-
 std::string_view without_blanks(std::string_view text) {
   while (!text.empty() && (static_cast<unsigned char>(text.back()) <= ' ')) text.remove_suffix(1);
   while (!text.empty() && (static_cast<unsigned char>(text.front()) <= ' ')) text.remove_prefix(1);

@@ -64,16 +64,20 @@ GroupCorners::Used GroupCorners::gather(const Mesh& mesh, const std::vector<std:
 }
 
 Eigen::Vector3d glb_offset(const Mesh& mesh) {
-  constexpr double near = 1000;  // metres
   Eigen::AlignedBox3d box;
   for (const auto& v : mesh.vertices) box.extend(v);
+  return glb_offset(mesh.origin, box);
+}
+
+Eigen::Vector3d glb_offset(const Eigen::Vector3d& origin, const Eigen::AlignedBox3d& box) {
+  constexpr double near = 1000;  // metres
   if (box.isEmpty()) return Eigen::Vector3d::Zero();
   const auto within = [&](const Eigen::Vector3d& shift) {
     return (box.min() + shift).cwiseAbs().maxCoeff() <= near && (box.max() + shift).cwiseAbs().maxCoeff() <= near;
   };
-  if (within(mesh.origin)) return Eigen::Vector3d::Zero();
-  if (within(Eigen::Vector3d::Zero())) return mesh.origin;
-  return (mesh.origin + box.center()).array().round();
+  if (within(origin)) return Eigen::Vector3d::Zero();
+  if (within(Eigen::Vector3d::Zero())) return origin;
+  return (origin + box.center()).array().round();
 }
 
 Eigen::Matrix3d glb_rotation(const Eigen::Vector3d& up) {

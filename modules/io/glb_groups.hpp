@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -39,6 +40,8 @@ class GroupCorners {
 /// kilometre of it; else the mesh's origin if all lie within a kilometre of that, so that meshes of one run fit
 /// together; else whole metres in the middle.
 Eigen::Vector3d glb_offset(const Mesh& mesh);
+/// The same for what lies in `box` about `origin`.
+Eigen::Vector3d glb_offset(const Eigen::Vector3d& origin, const Eigen::AlignedBox3d& box);
 
 /// The rotation that brings `up` (unit length) to glTF's +y: by quarter turns that bring the nearest axis there, so
 /// that z up becomes (x, z, -y) and y up stays; then, if `up` is more than 5 degrees from that axis, by the least

@@ -108,7 +108,7 @@ struct ReadScan {
                                   "Only scans of more points are joined so; 0: all. Below, every point is kept."),
       param<&Params::voxel_share>(ratio, within(0, 1),
                                   "Voxels with less than this share of the points of the fullest one around them are "
-                                  "noise and left out; 0: none.")};
+                                  "noise and left out; 0: none. Where points are not joined it has no effect.")};
   static Out run(const Params& params, Context& context);
 };
 

@@ -225,6 +225,10 @@ class Thinning {
       context_.info(fmt::format("{} of {} voxels are left out as noise: they hold {:.2g} % of the points",
                                 places.size() - kept, places.size(),
                                 100 * static_cast<double>(points) / static_cast<double>(counts_.points)));
+    constexpr std::size_t least = 3;
+    if (kept < std::min(least, places.size()))
+      throw Error(fmt::format("{}: `voxel_share` leaves {} of {} voxels", geometry_.path, kept, places.size()),
+                  "the scan is too sparse for it: a smaller share, or 0, keeps more");
     places.resize(kept);
   }
 

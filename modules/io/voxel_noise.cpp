@@ -15,14 +15,9 @@ Place coarse(const Place& place, unsigned bits) { return {place[0] >> bits, plac
 class PlaceTable {
  public:
   std::uint32_t add(const Place& place) {
-    if (2 * (keys_.size() + 1) > table_.size()) grow();
     const std::uint64_t key = key_of(place);
-    const std::size_t at = slot(key);
-    if (table_[at] == 0) {
-      keys_.push_back(key);
-      table_[at] = static_cast<std::uint32_t>(keys_.size());
-    }
-    return table_[at] - 1;
+    if (!keys_.empty() && keys_[last_] == key) return last_;  // in the order of voxels neighbours follow each other
+    return last_ = add_key(key);
   }
   std::optional<std::uint32_t> find(const Place& place) const {
     const std::uint32_t entry = table_.empty() ? 0 : table_[slot(key_of(place))];
@@ -45,6 +40,16 @@ class PlaceTable {
   }
 
  private:
+  std::uint32_t add_key(std::uint64_t key) {
+    if (2 * (keys_.size() + 1) > table_.size()) grow();
+    const std::size_t at = slot(key);
+    if (table_[at] == 0) {
+      keys_.push_back(key);
+      table_[at] = static_cast<std::uint32_t>(keys_.size());
+    }
+    return table_[at] - 1;
+  }
+
   static constexpr unsigned axis_bits = 21;
   static constexpr std::uint64_t mask = (std::uint64_t{1} << axis_bits) - 1;
 
@@ -65,6 +70,7 @@ class PlaceTable {
 
   std::vector<std::uint32_t> table_;  // number plus 1; open addressing, a power of two long
   std::vector<std::uint64_t> keys_;
+  std::uint32_t last_ = 0;
 };
 
 /// Points by how many points their voxel holds, in quarters of an octave.
@@ -114,34 +120,35 @@ class VoxelNoise {
     std::vector<char> noise(voxels_.size(), 0);
     context_.parallel_for(noise.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
-        noise[i] = is_tail(voxels_[i], fullest) || is_stray(voxels_[i], usual) ? 1 : 0;
+        noise[i] = is_tail(voxels_[i], fullest[block_of_[i]]) || is_stray(voxels_[i], usual[cell_of_[i]]) ? 1 : 0;
     });
     return {noise.begin(), noise.end()};
   }
 
  private:
-  static constexpr unsigned block_bits = 2, cell_bits = 5;
+  static constexpr unsigned block_bits = 1, cell_bits = 5;
 
   void number_places() {
+    block_of_.reserve(voxels_.size());
+    cell_of_.reserve(voxels_.size());
     for (const VoxelCount& voxel : voxels_) {
       numbers_.add(voxel.place);
-      const std::uint32_t block = blocks_.add(coarse(voxel.place, block_bits));
+      const std::uint32_t block = block_of_.emplace_back(blocks_.add(coarse(voxel.place, block_bits)));
       if (block == most_.size()) most_.push_back(0);
       most_[block] = std::max(most_[block], voxel.points);
-      const std::uint32_t cell = cells_.add(coarse(voxel.place, cell_bits));
+      const std::uint32_t cell = cell_of_.emplace_back(cells_.add(coarse(voxel.place, cell_bits)));
       if (cell == histograms_.size()) histograms_.emplace_back();
       histograms_[cell].add(voxel.points);
     }
   }
 
-  bool is_tail(const VoxelCount& voxel, const std::vector<std::uint64_t>& fullest) const {
-    const auto most = static_cast<double>(fullest[*blocks_.find(coarse(voxel.place, block_bits))]);
-    return static_cast<double>(voxel.points) < share_ * most;
+  bool is_tail(const VoxelCount& voxel, std::uint64_t fullest) const {
+    return static_cast<double>(voxel.points) < share_ * static_cast<double>(fullest);
   }
 
-  bool is_stray(const VoxelCount& voxel, const std::vector<double>& usual) const {
+  bool is_stray(const VoxelCount& voxel, double usual) const {
     constexpr double surface = 9;  // of 27 voxels
-    const double least = share_ * surface * usual[*cells_.find(coarse(voxel.place, cell_bits))];
+    const double least = share_ * surface * usual;
     if (static_cast<double>(voxel.points) >= least) return false;
     std::uint64_t points = 0;
     numbers_.around(voxel.place, [&](std::uint32_t i) { points += voxels_[i].points; });
@@ -152,8 +159,9 @@ class VoxelNoise {
   double share_;
   const Context& context_;
   PlaceTable numbers_, blocks_, cells_;
-  std::vector<std::uint64_t> most_;    // points in a voxel of a block
-  std::vector<Histogram> histograms_;  // of a cell
+  std::vector<std::uint32_t> block_of_, cell_of_;  // of a voxel
+  std::vector<std::uint64_t> most_;                // points in a voxel of a block
+  std::vector<Histogram> histograms_;              // of a cell
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "modules/io/cloud_columns.hpp"
 #include "modules/io/e57_writer.hpp"
+#include "modules/io/glb_cloud_writer.hpp"
 #include "modules/io/las_writer.hpp"
 #include "modules/io/paths.hpp"
 
@@ -78,19 +79,30 @@ void write_columns(const Cloud& cloud, const std::string& extension, bool binary
   out.flush();
 }
 
+/// Which points are written: `most` (0: all), evenly in their order.
+std::vector<std::uint32_t> kept_of(std::size_t points, std::int64_t most) {
+  std::vector<std::uint32_t> kept(most == 0 ? points : std::min(points, static_cast<std::size_t>(most)));
+  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = static_cast<std::uint32_t>(i * points / kept.size());
+  return kept;
+}
+
 }  // namespace
 
 void WriteCloud::run(const In& in, const Params& params, Context& context) {
-  const Cloud& cloud = *in.cloud;
   const std::string extension = extension_of(params.path.path);
+  const bool glb = extension == ".glb";
+  const auto kept = kept_of(in.cloud->size(), params.max_points);
+  const bool thinner = kept.size() < in.cloud->size();
+  const Cloud fewer = thinner && !glb ? select(*in.cloud, kept) : Cloud{};
+  const Cloud& cloud = thinner && !glb ? fewer : *in.cloud;
   const bool text = extension == ".xyz" || extension == ".txt" || extension == ".csv";
   const bool las = extension == ".las" || extension == ".laz";
-  if (!text && !las && extension != ".ply" && extension != ".pcd" && extension != ".e57")
+  if (!text && !las && !glb && extension != ".ply" && extension != ".pcd" && extension != ".e57")
     throw Error("cannot write a cloud as '" + params.path.path + "'",
-                "known extensions: .ply, .pcd, .e57, .las, .laz, .xyz, .txt, .csv");
+                "known extensions: .ply, .pcd, .e57, .las, .laz, .glb, .xyz, .txt, .csv");
   if (cloud.points.empty()) context.warn("the cloud is empty: " + params.path.path + " has no points");
   const bool several = extension == ".ply" || extension == ".e57";
-  if ((!several && cloud.sensors.size() > 1) || ((text || las) && !cloud.sensors.empty()))
+  if ((!several && !glb && cloud.sensors.size() > 1) || ((text || las) && !cloud.sensors.empty()))
     context.warn(fmt::format("{}: the places of the {} sensors are not kept by this format", params.path.path,
                              cloud.sensors.size()));
   const bool names_crs = (las || extension == ".e57") && !cloud.crs.empty();
@@ -100,7 +112,11 @@ void WriteCloud::run(const In& in, const Params& params, Context& context) {
                              params.path.path, cloud.unit));
   const auto target = context.output(params.path.path);
   AtomicFile file(target);
-  if (extension == ".e57")
+  const Eigen::Vector3d up =
+      in.transform ? Eigen::Vector3d(in.transform->rotation.transpose().col(2)) : Eigen::Vector3d::UnitZ();
+  if (glb)
+    write_glb(cloud, kept, up, file);
+  else if (extension == ".e57")
     write_e57(cloud, crs, file);
   else if (las)
     write_las(cloud, crs, params.path.path, extension == ".laz", file, context);

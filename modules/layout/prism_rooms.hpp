@@ -17,8 +17,8 @@ struct RoomLimits {
 ///   the hole parts the storeys.
 /// - A room is what hangs together of intervals through borders of which walls cover less than half, the widest
 ///   first, and never has two intervals over one place: what lies over itself is two rooms. Parts of 1 m² or more do
-///   not hang together through gaps of less than 0.75 m, or 0.5 m where the floor was seen in them: cupboards hide the
-///   ends of walls, and nobody goes through there.
+///   not hang together through gaps of less than 0.75 m, or 0.5 m where floor was seen in the cells on both sides of
+///   them: cupboards hide the ends of walls, and nobody goes through there.
 /// - Rooms of one storey have floors at similar heights (steps of up to a metre) and do not lie over each other.
 /// Rooms are numbered by falling area, through all storeys. The log says what was too small or hardly seen.
 std::vector<StoreyCells> prism_rooms(const PrismSpace& space, WallCover& walls, std::vector<std::vector<bool>> inside,

@@ -14,7 +14,8 @@ struct PoissonSettings {
 
 /// The closed surface of pcl::Poisson. It runs on one thread (its parallel sums come in the order in which threads
 /// arrive), and reconstructions of one program wait for each other (its octree takes nodes from one pool). PCL prints
-/// remarks about open edges to stdout, which a run sets aside. The cloud has points with normals, in more places than one (is_surface).
+/// remarks about open edges to stdout, which a run sets aside. The cloud has points with normals, in more places than
+/// one (is_surface).
 RawSurface poisson_surface(const Cloud& cloud, const PoissonSettings& settings);
 
 /// Settings of pcl::GreedyProjectionTriangulation, angles in degrees.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 #include "graph/api/error.hpp"
@@ -20,6 +21,10 @@ struct File {
   pcl::PCLPointCloud2 cloud;
   Eigen::Vector3f viewpoint = Eigen::Vector3f::Zero();
 };
+
+constexpr std::size_t most_points = 4'000'000'000;  // indices have 32 bits
+
+std::size_t points_in(const pcl::PCLPointCloud2& cloud) { return static_cast<std::size_t>(cloud.width) * cloud.height; }
 
 File loaded(const std::string& path) {
   File file;
@@ -39,13 +44,14 @@ File loaded(const std::string& path) {
       unsigned body = 0;
       status = pcl::PCDReader().readHeader(path, file.cloud, origin, turn, version, kind, body);
       if (status >= 0 && file.cloud.fields.empty()) status = -1;
-      if (status >= 0 && file.cloud.width * file.cloud.height > 0)
+      if (status >= 0 && points_in(file.cloud) > 0)
         status = pcl::PCDReader().read(path, file.cloud, origin, turn, version);
     }
   } catch (const pcl::PCLException& error) {
     throw Error(fmt::format("{}: {}", path, error.what()), "io.read_scan says what is wrong in it");
   }
-  if (status < 0)
+  if (status < 0 || points_in(file.cloud) > most_points ||
+      points_in(file.cloud) * file.cloud.point_step > file.cloud.data.size())
     throw Error(fmt::format("{}: PCL cannot read this file", path), "io.read_scan says what is wrong in it");
   file.viewpoint = origin.head<3>();
   return file;
@@ -64,8 +70,14 @@ class Column {
       case pcl::PCLPointField::INT16: return as<std::int16_t>(i);
       case pcl::PCLPointField::UINT16: return as<std::uint16_t>(i);
       case pcl::PCLPointField::INT32: return as<std::int32_t>(i);
-      default: return as<std::uint32_t>(i);
+      case pcl::PCLPointField::UINT32: return as<std::uint32_t>(i);
+      default: return std::numeric_limits<double>::quiet_NaN();
     }
+  }
+  /// Whether its values have the 32 bits of a packed colour.
+  bool is_packed() const {
+    return field_.datatype == pcl::PCLPointField::FLOAT32 || field_.datatype == pcl::PCLPointField::UINT32 ||
+           field_.datatype == pcl::PCLPointField::INT32;
   }
   /// The field's bytes as they are: packed colours are floats or integers.
   template <class T>
@@ -114,9 +126,16 @@ void read_normals(const pcl::PCLPointCloud2& file, const std::vector<std::uint32
   }
 }
 
+/// −1 where there is none, or one that does not fit.
+std::int32_t label_of(double value) {
+  constexpr double most = std::numeric_limits<std::int32_t>::max();
+  return value >= -most && value <= most ? static_cast<std::int32_t>(value) : -1;
+}
+
 void read_attributes(const pcl::PCLPointCloud2& file, const std::vector<std::uint32_t>& rows, Cloud& cloud) {
   const auto rgb = find(file, "rgb");
-  const auto colour = rgb ? rgb : find(file, "rgba");
+  auto colour = rgb ? rgb : find(file, "rgba");
+  if (colour && !colour->is_packed()) colour.reset();
   const auto intensity = find(file, "intensity"), label = find(file, "label");
   for (const auto i : rows) {
     if (colour) {
@@ -125,7 +144,7 @@ void read_attributes(const pcl::PCLPointCloud2& file, const std::vector<std::uin
                                static_cast<std::uint8_t>(bits)});
     }
     if (intensity) cloud.intensities.push_back(static_cast<float>((*intensity)[i]));
-    if (label) cloud.labels.push_back(static_cast<std::int32_t>((*label)[i]));
+    if (label) cloud.labels.push_back(label_of((*label)[i]));
   }
 }
 
@@ -135,7 +154,7 @@ Read::Out Read::run(const Params& params, Context& context) {
   const File file = loaded(params.path.path);
   const auto x = find(file.cloud, "x"), y = find(file.cloud, "y"), z = find(file.cloud, "z");
   if (!x || !y || !z) throw Error(fmt::format("{}: no fields x, y and z", params.path.path));
-  const std::size_t size = static_cast<std::size_t>(file.cloud.width) * file.cloud.height;
+  const std::size_t size = points_in(file.cloud);
   std::vector<std::uint32_t> rows;
   rows.reserve(size);
   for (std::uint32_t i = 0; i < size; ++i)

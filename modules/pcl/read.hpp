@@ -10,8 +10,8 @@ namespace atrium::pcl_nodes {
 /// Fields: x y z, normal_x normal_y normal_z, rgb or rgba (packed), intensity, label; others are left out. The
 /// scanner's place is PCD's VIEWPOINT, if that is not zero. Coordinates stay what the file has: PCL's clouds of fields
 /// keep doubles, and an axis that is further than 1000 m from zero goes into the cloud's origin. Points that are not
-/// finite are left out, as normals are that are not unit, with a warning. Error: a file that PCL cannot read, or
-/// without x y z.
+/// finite are left out, with a warning; so are all normals if one is zero or not finite. Colours are packed in 32 bits.
+/// Error: a file that PCL cannot read, or without x y z.
 struct Read {
   static constexpr std::string_view type = "pcl.read";
   static constexpr std::string_view summary = "Reads a PCD or PLY file (pcl::PCDReader, pcl::PLYReader).";

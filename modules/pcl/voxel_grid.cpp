@@ -46,6 +46,17 @@ void warn_of_dropped(const Cloud& cloud, Context& context) {
   if (!names.empty()) context.warn(names + ": dropped, PCL's points have no room for them");
 }
 
+/// Where normals cancel out, PCL's mean is 0.
+void name_cancelled_normals(Cloud& cloud, Context& context) {
+  std::size_t cancelled = 0;
+  for (auto& normal : cloud.normals) {
+    if (normal.norm() > 0.5F) continue;
+    normal = Eigen::Vector3f::UnitZ();
+    ++cancelled;
+  }
+  if (cancelled > 0) context.warn(fmt::format("the normals of {} voxels cancel out: they are set to +z", cancelled));
+}
+
 }  // namespace
 
 VoxelGrid::Out VoxelGrid::run(const In& in, const Params& params, Context& context) {
@@ -63,7 +74,9 @@ VoxelGrid::Out VoxelGrid::run(const In& in, const Params& params, Context& conte
     grid.filter(thinned);
     all += thinned;
   }
-  return {from_pcl(all, *in.cloud)};
+  Out out{from_pcl(all, *in.cloud)};
+  name_cancelled_normals(out.cloud, context);
+  return out;
 }
 
 }  // namespace atrium::pcl_nodes

@@ -9,9 +9,10 @@ namespace atrium::pcl_nodes {
 /// numbers of voxels are 32-bit, so blocks of 1024³ voxels are thinned one after another; within a block, points come
 /// in PCL's order.
 ///
-/// Means of points, normals (made unit again) and colours (cut off, not rounded). PCL has no point type with all of our
-/// columns: labels, intensities and sources are dropped, with a warning. One thread. An empty cloud gives an empty
-/// cloud. Error: a point more than 2·10⁹ voxels from the cloud's origin.
+/// Means of points, normals (made unit again; +z where they cancel out, with a warning) and colours (cut off, not
+/// rounded). PCL has no point type with all of our columns: labels, intensities and sources are dropped, with a
+/// warning. One thread. An empty cloud gives an empty cloud. Error: a point more than 2·10⁹ voxels from the cloud's
+/// origin.
 struct VoxelGrid {
   static constexpr std::string_view type = "pcl.voxel_grid";
   static constexpr std::string_view summary = "Thins a cloud to the centroids of its voxels (pcl::VoxelGrid).";

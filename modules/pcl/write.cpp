@@ -4,8 +4,10 @@
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "graph/api/error.hpp"
 #include "modules/pcl/pcl_cloud.hpp"
@@ -82,6 +84,23 @@ int save(const std::string& path, bool pcd, const pcl::PCLPointCloud2& cloud, co
   return pcl::PCDWriter().writeASCII(path, cloud, origin, turn, digits);
 }
 
+/// PCL does not say when a disk is full. A number in text takes two bytes at least, with its blank.
+void check_whole(const std::filesystem::path& path, const pcl::PCLPointCloud2& cloud, const Write::Params& params,
+                 const std::string& target) {
+  if (params.compressed) return;  // PCL maps that file, and it has its size before
+  const std::size_t points = static_cast<std::size_t>(cloud.width) * cloud.height;
+  const std::size_t least = points * (params.binary ? cloud.point_step : 2 * cloud.fields.size());
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::size_t>(std::max<std::streamoff>(0, file.tellg()));
+  char last = '\n';
+  if (!params.binary && size > 0) {
+    file.seekg(-1, std::ios::end);
+    file.get(last);
+  }
+  if (!file || size < least || last != '\n')
+    throw Error(fmt::format("{}: only {} bytes could be written", target, size), "is the disk full?");
+}
+
 }  // namespace
 
 void Write::run(const In& in, const Params& params, Context& context) {
@@ -105,6 +124,7 @@ void Write::run(const In& in, const Params& params, Context& context) {
     throw Error(fmt::format("{}: {}", target.string(), error.what()));
   }
   if (status < 0) throw Error(fmt::format("{}: PCL cannot write this file", target.string()));
+  check_whole(file.path(), rows.cloud(), params, target.string());
   file.commit();
   context.wrote(target);
 }

@@ -82,7 +82,6 @@ endif()
 call(0 "" ${CMAKE_COMMAND} --install ${WORK}/build-example_plugin --prefix ${prefix})
 unset(ENV{ATRIUM_PLUGIN_PATH})
 call(0 "points +125" ${program} run ${here}/one_node.yaml --out ${WORK}/run-installed)
-file(REMOVE_RECURSE ${WORK})
 
 # The tutorial: its files are those that stand here, and they do what it says.
 file(READ ${source}/share/doc/tutorial.md page)
@@ -102,3 +101,4 @@ call(0 "cloud_to_mesh.median" ${program} run ${WORK}/tutorial/smooth.yaml --out 
 call(0 "cloud_to_mesh.median" ${program} run ${WORK}/tutorial/smooth.yaml -s smooth.type=filter.none --out ${WORK}/run-raw)
 call(0 "20 cm" ${program} sweep run ${WORK}/tutorial/radius.yaml --out ${WORK}/run-radius)
 call(0 "" ${program} report ${WORK}/run-radius)
+file(REMOVE_RECURSE ${WORK})

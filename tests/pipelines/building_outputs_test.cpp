@@ -84,8 +84,8 @@ TEST_F(BuildingOutputs, ThePlanHasTheRoomsAndTheDoorsBetweenThem) {
 
 TEST_F(BuildingOutputs, TheSceneAndItsModelAreThere) {
   for (const auto* name :
-       {"structure.ply", "shell.ply", "scene.ply", "scene_without_ceiling.ply", "scene.glb", "floorplan.svg",
-        "floorplan.dxf", "building.ifc", "accuracy.csv", "accuracy.svg", "walls.csv"})
+       {"structure.ply", "shell.ply", "scene.ply", "scene_without_ceiling.ply", "scene.glb", "scan.glb",
+        "floorplan.svg", "floorplan.dxf", "building.ifc", "accuracy.csv", "accuracy.svg", "walls.csv"})
     EXPECT_GT(fs::file_size(*scratch / "made" / name), 1000U) << name;
 }
 

@@ -44,6 +44,10 @@ TEST_F(Quickstart, SaysWhatItFoundAndWhereItIs) {
   ASSERT_GE(lines.size(), 3U) << result.out;
   EXPECT_TRUE(lines[1].starts_with("1 closed rooms of ")) << lines[1];
   EXPECT_EQ(lines[1].find("  "), std::string::npos) << "a number is missing: " << lines[1];
+  // The page to look at is named first, where it could be built.
+  const fs::path page = fs::path(ATRIUM_PROGRAM).parent_path().parent_path() / "share/atrium/view.html";
+  EXPECT_EQ(fs::exists(checkout / "runs/scan-scan/view.html"), fs::exists(page));
+  EXPECT_TRUE(lines[3].starts_with(fs::exists(page) ? "  view.html " : "  building.json ")) << lines[3];
   for (const char* file :
        {"building.json", "building.ifc", "rooms.csv", "floorplan.svg", "floorplan.dxf", "floorplan.geojson",
         "shell.ply", "structure.ply", "scene.glb", "scene.ply", "scene_without_ceiling.ply"}) {

@@ -25,7 +25,7 @@ TEST(ReportPage, IsLeftOutOfTheBuildWhereEsbuildIsLacking) {
   const auto result = run_process({"env", "PATH=" + (folder / "bin").string(),
                                    ATRIUM_SOURCE_DIR "/graph/report/web/build", (folder / "report.html").string()});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("the report's page is not built: esbuild and libjs-three are lacking"), std::string::npos)
+  EXPECT_NE(result.out.find("report.html is not built: esbuild and libjs-three are lacking"), std::string::npos)
       << result.out;
   EXPECT_FALSE(fs::exists(folder / "report.html"));
 }

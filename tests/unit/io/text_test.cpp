@@ -208,6 +208,7 @@ TEST_F(Text, NamesMayGiveTheUnit) {
   EXPECT_FLOAT_EQ(read("# x(mm) y(mm) z(mm)" + rows).points.at(1).x(), 0.01F);
   EXPECT_FLOAT_EQ(read("x[m] y[m] z[mm]" + rows).points.at(1).x(), 10);  // they contradict each other
   EXPECT_FLOAT_EQ(read("x y z range[ft]\n0 0 0 1\n10 0 0 1\n10 5 0 1\n0 5 8 1\n").points.at(1).x(), 10) << "another's";
+  EXPECT_FLOAT_EQ(read("\"Easting\",\"Northing\",\"Elevation\"\n0,0,0\n10,0,0\n10,5,0\n0,5,8\n").points.at(1).x(), 10);
   EXPECT_FLOAT_EQ(read("X (ft) Y (ft) Z (ft) Time [m]\n0 0 0 1\n10 0 0 1\n10 5 0 1\n0 5 8 1\n").points.at(1).x(),
                   3.048F);
 }

@@ -72,6 +72,15 @@ TEST(PclVoxelGrid, MergesNormalsAndColours) {
   EXPECT_EQ(merged.colours[1], (Colour{1, 2, 3}));
 }
 
+TEST(PclVoxelGrid, NormalsThatCancelOutAreNamed) {
+  Cloud cloud;
+  cloud.points = {{0.01F, 0, 0}, {0.03F, 0, 0}};
+  cloud.normals = {{1, 0, 0}, {-1, 0, 0}};
+  test::Warnings warnings;
+  EXPECT_EQ(VoxelGrid::run({input(cloud)}, {0.1}, warnings.context()).cloud.normals[0], Eigen::Vector3f::UnitZ());
+  EXPECT_EQ(warnings.texts().size(), 1U);
+}
+
 TEST(PclVoxelGrid, NamesTheColumnsThatItDrops) {
   Cloud cloud;
   cloud.points = {{0, 0, 0}, {1, 1, 1}};

@@ -2,10 +2,10 @@
 import { BufferAttribute, BufferGeometry, Group, Mesh, MeshStandardMaterial, DoubleSide, FrontSide, Color } from 'three';
 
 const SIZES = { char: 1, uchar: 1, int8: 1, uint8: 1, short: 2, ushort: 2, int16: 2, uint16: 2, int: 4, uint: 4, int32: 4, uint32: 4, float: 4, float32: 4, double: 8, float64: 8 };
-const CLASSES = ['object', 'wall', 'floor', 'ceiling'];
-const CLASS_COLOURS = { object: '#b5b5b5', wall: '#56b4e9', floor: '#e69f00', ceiling: '#009e73' };
+export const CLASSES = ['object', 'wall', 'floor', 'ceiling'];
+export const CLASS_COLOURS = { object: '#b5b5b5', wall: '#56b4e9', floor: '#e69f00', ceiling: '#009e73' };
 
-function readHeader(bytes) {
+export function readHeader(bytes) {
   const end = new TextDecoder('latin1').decode(bytes.subarray(0, 65536));
   const match = /end_header\r?\n/.exec(end);
   if (!end.startsWith('ply') || !match) throw new Error('this is no PLY file');
@@ -21,7 +21,7 @@ function readHeader(bytes) {
   return { elements, ascii: format === 'ascii', start: match.index + match[0].length };
 }
 
-function makeReader(bytes, header) {
+export function makeReader(bytes, header) {
   if (header.ascii) {
     const words = new TextDecoder().decode(bytes.subarray(header.start)).split(/\s+/).filter(Boolean);
     let next = 0;

@@ -1,0 +1,298 @@
+// view.mjs CHROMIUM PAGE KIND [FILE]: opens the page of a run as a reader does and uses all of it; prints what it measured as JSON.
+// KIND: flat (everything is there; FILE gets the corrections that the page wrote), corrected (the run was corrected), lacking (hardly
+// anything is there), time (frames are timed). Ends with 1 and the reason where something is wrong.
+import assert from 'node:assert/strict';
+import { existsSync, mkdtempSync, readFileSync, renameSync, rmSync, statSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { launch, openPage } from './browser.mjs';
+
+const [chromium, file, kind, corrections] = process.argv.slice(2);
+const browser = await launch(chromium);
+try {
+  const begin = Date.now();
+  const page = await openPage(browser, file, { width: 1280, height: 800 });
+  const measured = { opened_ms: Date.now() - begin, bytes: statSync(file).size };
+  const count = (selector) => page.evaluate(`document.querySelectorAll(${JSON.stringify(selector)}).length`);
+  const text = (selector) => page.evaluate(`document.querySelector(${JSON.stringify(selector)})?.textContent ?? ''`);
+  const press = (selector) => page.evaluate(`document.querySelector(${JSON.stringify(selector)}).click()`);
+  const chosen = () => page.evaluate("document.documentElement.dataset.chosen ?? ''");
+  const frames = () => page.evaluate("Number(document.getElementById('canvas').dataset.frames ?? 0)");
+  const pause = (ms) => new Promise((resolve) => { setTimeout(resolve, ms); });
+  /** Until nothing is drawn any more. */
+  const settled = () => page.waitFor("!document.getElementById('canvas').dataset.due");
+  const mouse = (type, x, y, more = {}) => page.send('Input.dispatchMouseEvent', { type, x, y, button: 'left', buttons: type === 'mouseReleased' ? 0 : 1, clickCount: 1, ...more });
+  const click = async (x, y) => { await mouse('mousePressed', x, y); await mouse('mouseReleased', x, y); };
+  const middle = (selector) => page.evaluate(`(() => { const b = document.querySelector(${JSON.stringify(selector)}).getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()`);
+  /** The stage's pixels, kept in the page under a name. */
+  const keep = async (name) => {
+    await settled();
+    await page.evaluate(`(() => {
+      const canvas = document.getElementById('canvas');
+      const copy = document.createElement('canvas');
+      [copy.width, copy.height] = [canvas.width, canvas.height];
+      copy.getContext('2d').drawImage(canvas, 0, 0);
+      (window.kept ??= {}).${name} = copy.getContext('2d').getImageData(0, 0, copy.width, copy.height);
+    })()`);
+  };
+  /** Where two of them differ: how many pixels, and one in the midst of them, in the window. */
+  const difference = (a, b) => page.evaluate(`(() => {
+    const [a, b] = [window.kept.${a}, window.kept.${b}];
+    const frame = document.getElementById('canvas').getBoundingClientRect();
+    const places = [];
+    for (let i = 0; i < a.data.length; i += 4)
+      if (Math.abs(a.data[i] - b.data[i]) + Math.abs(a.data[i + 1] - b.data[i + 1]) + Math.abs(a.data[i + 2] - b.data[i + 2]) > 12) places.push([(i / 4) % a.width, Math.floor(i / 4 / a.width)]);
+    if (places.length === 0) return { count: 0 };
+    const mean = places.reduce(([x, y], p) => [x + p[0] / places.length, y + p[1] / places.length], [0, 0]);
+    const at = places.reduce((best, p) => (Math.hypot(p[0] - mean[0], p[1] - mean[1]) < Math.hypot(best[0] - mean[0], best[1] - mean[1]) ? p : best));
+    return { count: places.length, at: [frame.x + at[0] + 0.5, frame.y + at[1] + 0.5] };
+  })()`);
+
+  await { flat: checkFlat, corrected: checkCorrected, lacking: checkLacking, time: timeFrames }[kind]();
+  assert.deepEqual(page.errors, []);
+  assert.deepEqual(page.requests.filter((url) => !url.startsWith('blob:') && !url.startsWith('data:') && !url.startsWith('file:')), []);
+  assert.equal(page.requests.filter((url) => url.startsWith('file:')).length, 1);
+  console.log(JSON.stringify(measured));
+
+  async function checkLacking() {
+    const gaps = await text('#gaps');
+    for (const part of ['floorplan.svg is lacking: floorplan.write_svg writes it', 'scan.glb cannot be shown', 'building.json cannot be shown']) assert.ok(gaps.includes(part), gaps);
+    assert.ok((await text('#plan')).includes('There is no plan'));
+    assert.equal(await count('#tables tbody tr'), 1);
+    assert.equal(await page.evaluate('window.intruder'), undefined);
+    assert.ok((await text('#chosen')).includes('Without building.json'));
+  }
+
+  async function checkCorrected() {
+    await press('#tables tbody tr[data-of^="room"]');
+    assert.ok((await text('#chosen')).includes('This run is corrected already'), await text('#chosen'));
+    assert.equal(await count('#chosen form'), 0);
+  }
+
+  async function checkFlat() {
+    const building = JSON.parse(readFileSync(join(dirname(file), 'building.json')));
+    assert.equal(await count('#gaps'), 0, await text('#gaps'));
+    await press('[data-mode=model]');  // to draw points without a graphics card takes its time
+    await checkThatNothingMovesByItself();
+    await checkLayers();
+    await checkRooms(building);
+    await checkFaces(building);
+    await checkOpenings(building);
+    await checkMeasuring(building);
+    await checkTables(building);
+    await writeCorrections(building);
+  }
+
+  async function checkThatNothingMovesByItself() {
+    await settled();
+    const before = await frames();
+    await pause(1200);
+    assert.equal(await frames(), before, 'frames are drawn though nothing moves');
+    const [x, y] = await middle('#canvas');
+    await mouse('mousePressed', x, y);
+    for (let i = 1; i <= 5; ++i) await mouse('mouseMoved', x + 12 * i, y);
+    await mouse('mouseReleased', x + 60, y);
+    await settled();
+    assert.ok(await frames() > before, 'nothing is drawn though the camera moves');
+    assert.equal(await chosen(), '', 'a drag is no click');
+    await page.evaluate("[...document.querySelectorAll('#space button')].find((b) => b.textContent === 'Corner').click()");
+  }
+
+  async function checkLayers() {
+    // Points are one draw call; the model one for each class, one for edges, one for panes.
+    await press('[data-mode=scan]');
+    await keep('scan');
+    assert.equal(await page.evaluate("document.getElementById('canvas').dataset.calls"), '1');
+    await press('[data-mode=model]');
+    await keep('model');
+    measured.calls = Number(await page.evaluate("document.getElementById('canvas').dataset.calls"));
+    assert.ok(measured.calls <= 5, `${measured.calls} calls`);
+    const shown = await difference('scan', 'model');
+    assert.ok(shown.count > 20000, `${shown.count}`);
+    await page.evaluate("[...document.querySelectorAll('#space .check')].find((c) => c.textContent === 'ceilings').querySelector('input').click()");
+    await keep('closed');
+    assert.ok((await difference('model', 'closed')).count > 10000, 'ceilings are not shown');
+    await page.evaluate("[...document.querySelectorAll('#space .check')].find((c) => c.textContent === 'ceilings').querySelector('input').click()");
+    // The section box cuts.
+    await press('#section');
+    const slide = (axis, share) => page.evaluate(`(() => { const i = document.querySelector('[data-axis="${axis}"]'); i.value = Number(i.min) + ${share} * (i.max - i.min); i.dispatchEvent(new Event('input')); })()`);
+    await slide('x-high', 0.4);
+    await keep('cut');
+    assert.ok((await difference('model', 'cut')).count > 10000);
+    await press('#section-box .quiet');
+    await press('#section');
+    await keep('whole');
+    assert.equal((await difference('model', 'whole')).count, 0, 'the section box is not as it was');
+  }
+
+  /** A room that is clicked in the plan shows in the model; a click there chooses a face of the same room. */
+  async function checkRooms(building) {
+    await press('[data-mode=model]');
+    await page.evaluate("[...document.querySelectorAll('#space button')].find((b) => b.textContent === 'Top').click()");
+    await keep('before');
+    assert.equal(await count('#plan [data-room]'), building.rooms.length);
+    for (const [index, room] of building.rooms.entries()) {
+      await click(...await page.evaluate(`(() => { const b = document.querySelector('#plan [data-room=${JSON.stringify(room.name)}]').getBoundingClientRect(); return [b.x + b.width * 0.3, b.y + b.height * 0.35]; })()`));
+      assert.equal(await chosen(), `room ${index}`, room.name);
+      assert.ok((await text('#chosen')).includes(`${room.area.toFixed(2)} m²`));
+      assert.equal(await page.evaluate("document.querySelector('#tables tr.chosen').cells[1].textContent"), room.name);
+      await keep('after');
+      const lit = await difference('before', 'after');
+      assert.ok(lit.count > 1000, `${room.name} is not shown in the model`);
+      await click(...lit.at);
+      const [what, face] = (await chosen()).split(' ');
+      assert.equal(what, 'face');
+      assert.equal(building.faces[face].room, index, `${room.name}: face ${face}`);
+      assert.equal(await page.evaluate("document.querySelector('#plan .chosen').dataset.room"), room.name);
+    }
+    await page.evaluate("document.getElementById('canvas').focus()");
+    await page.key('Escape');
+    assert.equal(await chosen(), '');
+  }
+
+  async function checkFaces(building) {
+    const rows = readFileSync(join(dirname(file), 'accuracy.csv'), 'utf8').trim().split('\n').map((line) => line.split(','));
+    const [face, p95] = ['face', 'p95_mm'].map((name) => rows[0].indexOf(name));
+    const wall = building.faces.findIndex((f) => f.class === 'wall' && f.observed > 0.5);
+    await press('[data-table=accuracy]');
+    await press(`#tables tr[data-of="face ${wall}"]`);
+    const card = await text('#chosen');
+    const of = building.faces[wall];
+    for (const part of [`Wall ${wall}`, building.rooms[of.room].name, `${Math.round(100 * of.observed)} % of it`, `${(1000 * of.residual).toFixed(1)} mm`,
+                        `${Number(rows.find((row) => row[face] === String(wall))[p95]).toFixed(1)} mm, LOA`])
+      assert.ok(card.includes(part), `${part}: ${card}`);
+    const heat = await page.evaluate("(() => { const c = document.querySelector('.heat'); const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; const found = new Set(); for (let i = 0; i < d.length; i += 4) found.add(d.slice(i, i + 3).join()); return found.size; })()");
+    assert.ok(heat > 5, 'the heat map is empty');
+    const floor = building.faces.findIndex((f) => f.class === 'floor');
+    await press(`#tables tr[data-of="face ${floor}"]`);
+    assert.ok((await text('#chosen')).includes(`${building.faces[floor].area.toFixed(2)} m²`));
+  }
+
+  async function checkOpenings(building) {
+    await press('[data-mode=model]');
+    const index = building.openings.findIndex((o) => o.kind === 'window');
+    await press('[data-table=windows]');
+    await press(`#tables tr[data-of="opening ${index}"]`);
+    assert.equal(await chosen(), `opening ${index}`);
+    assert.ok((await text('#chosen h3')).startsWith('Window '));
+    // A click into its middle chooses it again: it is looked at so that it is there.
+    await page.evaluate("[...document.querySelectorAll('#chosen .quiet')].find((b) => b.textContent === 'Go there').click()");
+    await settled();
+    await page.evaluate("document.getElementById('canvas').focus()");
+    await page.key('Escape');
+    await click(...await middle('#canvas'));
+    assert.equal(await chosen(), `opening ${index}`);
+  }
+
+  /** The diagonal of the top view: two clicks on the floor of one room, as far apart as building.json says. */
+  async function checkMeasuring(building) {
+    await page.evaluate("[...document.querySelectorAll('#space button')].find((b) => b.textContent === 'Top').click()");
+    await settled();
+    await press('#measure');
+    const [x, y] = await middle('#canvas');
+    await click(x - 150, y - 60);
+    await click(x - 90, y - 60);
+    await settled();
+    const label = await text('.measure.text');
+    assert.match(label, /^\d+\.\d{3} m/);
+    await page.key('Escape');
+    await settled();
+    assert.equal(await count('.measure'), 0);
+    assert.ok(building.rooms.length > 0);
+  }
+
+  async function checkTables(building) {
+    for (const name of ['rooms', 'doors', 'windows', 'walls', 'accuracy']) {
+      await press(`[data-table=${name}]`);
+      const lines = readFileSync(join(dirname(file), `${name}.csv`), 'utf8').trim().split('\n').length - 1;
+      assert.equal(await count('#tables tbody tr'), lines, name);
+    }
+    await press('[data-table=rooms]');
+    await page.evaluate("[...document.querySelectorAll('#tables th button')].find((b) => b.textContent.startsWith('area')).click()");
+    const areas = await page.evaluate("[...document.querySelectorAll('#tables tbody tr')].map((row) => Number(row.cells[3].textContent))");
+    assert.deepEqual(areas, [...areas].sort((a, b) => b - a));
+    assert.equal(areas.length, building.rooms.length);
+  }
+
+  async function fill(action, values) {
+    await page.evaluate(`(() => {
+      const form = document.querySelector(${JSON.stringify(`details[data-action=${JSON.stringify(action)}] form`)});
+      for (const [key, value] of Object.entries(${JSON.stringify(values)})) form.elements[key].value = value;
+      form.requestSubmit();
+    })()`);
+  }
+  function listed() { return count('.corrections li'); }
+
+  async function writeCorrections(building) {
+    const windowed = new Set(building.openings.flatMap((o) => [o.face_a, o.face_b]));
+    const wide = (f) => f.class === 'wall' && f.area > 8;
+    const free = building.faces.findIndex((f, i) => wide(f) && !windowed.has(i) && !building.walls.some((w) => w.face_a === i || w.face_b === i));
+    const moved = building.faces.findIndex((f, i) => wide(f) && i !== free && f.room === 0);
+    await press('[data-table=accuracy]');
+    // What is no length is refused, with what would be right.
+    await press(`#tables tr[data-of="face ${moved}"]`);
+    await fill('Move the wall', { by: '3 parsecs' });
+    assert.ok((await text('details[data-action="Move the wall"] .wrong')).includes('is no length'));
+    assert.equal(await listed(), 0);
+    await fill('Move the wall', { by: '1,5 cm' });
+    assert.equal(await listed(), 1);
+    await press('[data-table=accuracy]');
+    if (free >= 0) {
+      await press(`#tables tr[data-of="face ${free}"]`);
+      await fill('Add a door or window', { kind: 'window', width: '80 cm', height: '1 m', distance: '0.3 m', sill: '' });
+      assert.ok((await text('details[data-action="Add a door or window"] .wrong')).includes('needs its sill'));
+      await fill('Add a door or window', { kind: 'window', width: '80 cm', height: '1 m', distance: '0.3 m', sill: '0.9' });
+    }
+    await press('[data-table=rooms]');
+    await press('#tables tr[data-of="room 1"]');
+    await fill('Rename', { name: building.rooms[0].name });
+    assert.ok((await text('details[data-action="Rename"] .wrong')).includes('already'));
+    await fill('Rename', { name: 'Küche "Süd"' });
+    await fill("Set the ceiling's height", { height: '2.55 m' });
+    await press('[data-table=doors]');
+    await press('#tables tbody tr[data-of]');
+    await fill('Change', { width: '0.85 m' });
+    const all = free >= 0 ? 5 : 4;
+    assert.equal(await listed(), all);
+    // One is taken back.
+    await fill('Change', { height: '1.9 m' });
+    assert.equal(await listed(), all + 1);
+    await press('.corrections li:last-child .link');
+    assert.equal(await listed(), all);
+
+    const folder = mkdtempSync(join(dirname(corrections), 'download-'));
+    await browser.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: folder });
+    await press('#save');
+    const saved = join(folder, 'corrections.yaml');
+    for (let i = 0; i < 200 && !existsSync(saved); ++i) await pause(50);
+    renameSync(saved, corrections);
+    rmSync(folder, { recursive: true });
+    measured.corrections = all;
+  }
+
+  /** Frames while the camera moves: until their pixels are there, and what of that this page's own program takes. */
+  async function timeFrames() {
+    Object.assign(measured, JSON.parse(await page.evaluate('document.documentElement.dataset.times')));
+    for (const mode of ['scan', 'model']) {
+      await press(`[data-mode=${mode}]`);
+      await settled();
+      measured[`${mode}_frame_ms`] = await page.evaluate(`(async () => {
+        const canvas = document.getElementById('canvas');
+        const gl = canvas.getContext('webgl2');
+        const pixel = new Uint8Array(4);
+        const times = [];
+        for (let i = 0; i < 3; ++i) {
+          const begin = performance.now();
+          canvas.dispatchEvent(new WheelEvent('wheel', { deltaY: i % 2 ? 40 : -40, bubbles: true, cancelable: true }));
+          const last = canvas.dataset.frames;
+          while (canvas.dataset.frames === last) await new Promise((resolve) => setTimeout(resolve, 0));
+          gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+          times.push(performance.now() - begin);
+        }
+        return Math.round(10 * times.sort((a, b) => a - b)[1]) / 10;
+      })()`);
+      measured[`${mode}_script_ms`] = Number(await page.evaluate("document.getElementById('canvas').dataset.milliseconds"));
+    }
+  }
+} finally {
+  await browser.close();
+}
