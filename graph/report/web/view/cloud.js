@@ -42,6 +42,8 @@ export function readCloud(buffer, run) {
   const tiles = [];
   for (const node of json.nodes ?? [])
     for (const primitive of json.meshes?.[node.mesh]?.primitives ?? []) if (primitive.mode === 0) tiles.push([node, primitive.attributes]);
+  const truly = (p) => [0, 1, 2].map((i) => matrix[i] * p[0] + matrix[4 + i] * p[1] + matrix[8 + i] * p[2] + matrix[12 + i]);
+  if (!run.frame.settled && tiles.length) run.frame.settle(truly(tiles[0][0].translation ?? [0, 0, 0]));
   const count = tiles.reduce((sum, [, attributes]) => sum + json.accessors[attributes.POSITION].count, 0);
   const positions = new Float32Array(3 * count);
   const colours = new Uint8Array(4 * count);
@@ -52,7 +54,7 @@ export function readCloud(buffer, run) {
     const place = rowsOf(buffer, json, binary, attributes.POSITION);
     const [scale, shift] = [node.scale ?? [1, 1, 1], node.translation ?? [0, 0, 0]];
     // From the numbers as they stand to the page's frame: one matrix, its columns by their images.
-    const to = (p) => run.frame.place([0, 1, 2].map((i) => matrix[i] * p[0] + matrix[4 + i] * p[1] + matrix[8 + i] * p[2] + matrix[12 + i]));
+    const to = (p) => run.frame.place(truly(p));
     const zero = to(shift);
     const axes = [0, 1, 2].map((k) => to(shift.map((v, i) => (i === k ? v + scale[k] : v))).map((v, i) => (v - zero[i]) / place.whole));
     for (let i = 0, j = 0, o = 3 * at; i < place.count; ++i, j += place.stride, o += 3) {

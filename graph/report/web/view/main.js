@@ -49,7 +49,7 @@ function legendOf(legend) {
 }
 
 /** The pane with the stage and its tools. */
-function makeStage(run, choose) {
+function makeStage(run, choose, alone) {
   const canvas = h('canvas', { id: 'canvas', tabindex: '0', 'aria-label': 'Scan and model: drag turns, wheel zooms, right button moves, click chooses' });
   const labels = h('div', { class: 'labels' });
   const legend = h('div', { class: 'legend' });
@@ -60,7 +60,7 @@ function makeStage(run, choose) {
   at('space').append(tools, stage);
   let space;
   try {
-    space = makeSpace(run, stage, canvas);
+    space = makeSpace(run, stage, canvas, alone);
   } catch (error) {
     message.textContent = `Nothing can be shown in 3D: ${error.message}.`;
     return null;
@@ -194,7 +194,10 @@ async function start() {
     chosen.show(selection);
     document.documentElement.dataset.chosen = selection ? `${kind} ${index}` : '';
   }
-  stage = makeStage(run, choose);
+  const hasScan = run.data.parts.some((part) => part.part === 'scan' && part.path);
+  // Without anything else the scan says how large all is.
+  const alone = hasScan && !run.building && !run.mesh ? await run.readCloud() : null;
+  stage = makeStage(run, choose, alone);
   const elsewhere = (kind, index) => {
     const of = { face: run.building?.faces, room: run.building?.rooms, opening: run.building?.openings }[kind]?.[index];
     if (of) stage?.uncover(of.storey);
@@ -206,7 +209,6 @@ async function start() {
   chosen.list.replaceWith(corrections.element);
   chosen.show(null);
   notes(run);
-  const hasScan = run.data.parts.some((part) => part.part === 'scan' && part.path);
   stage?.setMode(hasScan && run.mesh ? 'split' : hasScan ? 'scan' : 'model');
   stage?.space.look('corner');
   marks.model = performance.now();
@@ -214,7 +216,7 @@ async function start() {
   if (hasScan && stage) {
     stage.message.textContent = 'Reading the scan …';
     await new Promise((resolve) => { setTimeout(resolve, 30); });
-    stage.space.setCloud(await run.readCloud());
+    stage.space.setCloud(alone ?? await run.readCloud());
     stage.message.textContent = '';
     notes(run);
   }

@@ -11,8 +11,8 @@ import { faceMaterial, lineMaterial, pointMaterial } from './shaders.js';
 const FIELD = 38;  // degrees
 const HALF = Math.tan((FIELD / 2) * (Math.PI / 180));
 
-/** `stage`: the element that is drawn into. Throws where there is no WebGL 2. */
-export function makeSpace(run, stage, canvas) {
+/** `stage`: the element that is drawn into; `alone`: the cloud of a run that has neither building nor mesh. Throws where there is no WebGL 2. */
+export function makeSpace(run, stage, canvas, alone = null) {
   const context = canvas.getContext('webgl2', { antialias: true, preserveDrawingBuffer: true, powerPreference: 'high-performance' });
   if (!context) throw new Error('this browser has no WebGL 2');
   const renderer = new WebGLRenderer({ canvas, context });
@@ -21,7 +21,7 @@ export function makeSpace(run, stage, canvas) {
   renderer.autoClear = false;
 
   const building = run.building;
-  const box = building?.box ?? boxOf([...(run.mesh?.classes.values() ?? [])].flatMap((of) => chunks(of.positions)));
+  const box = building?.box ?? boxOf(alone ? triples(alone.positions) : [...(run.mesh?.classes.values() ?? [])].flatMap((of) => chunks(of.positions)));
   if (!Number.isFinite(box.min[0])) Object.assign(box, { min: [-1, -1, 0], max: [1, 1, 2] });
   const bounds = { min: box.min.map((v) => v - 0.3), max: box.max.map((v) => v + 0.3) };
   const state = { mode: 'split', ceilings: false, edges: true, openings: true, objects: true, outside: false, storeys: new Set(building?.storeys.map((s) => s.index) ?? [0]),
