@@ -221,10 +221,14 @@ class Thinning {
         points += voxels[i].points;
       else
         places[kept++] = places[i];
-    if (kept < places.size())
-      context_.info(fmt::format("{} of {} voxels are left out as noise: they hold {:.2g} % of the points",
-                                places.size() - kept, places.size(),
-                                100 * static_cast<double>(points) / static_cast<double>(counts_.points)));
+    constexpr double usual = 0.05;  // of the points: more than strays and noise are
+    const double lost = static_cast<double>(points) / static_cast<double>(counts_.points);
+    const auto said = fmt::format("{} of {} voxels are left out as noise: they hold {:.2g} % of the points",
+                                  places.size() - kept, places.size(), 100 * lost);
+    if (lost > usual)
+      context_.warn(said + ", so surfaces seen from far may be among them; `voxel_share: 0` keeps all");
+    else if (kept < places.size())
+      context_.info(said);
     constexpr std::size_t least = 3;
     if (kept < std::min(least, places.size()))
       throw Error(fmt::format("{}: `voxel_share` leaves {} of {} voxels", geometry_.path, kept, places.size()),

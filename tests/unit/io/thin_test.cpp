@@ -10,8 +10,9 @@ namespace {
 
 class Thin : public Files {
  protected:
-  Cloud read(const std::string& name, double voxel, ReadScan::Unit unit = ReadScan::Unit::metre) {
+  Cloud read(const std::string& name, double voxel, ReadScan::Unit unit = ReadScan::Unit::metre, double share = 0) {
     ReadScan::Params params;
+    params.voxel_share = share;
     params.path = {{path(name)}};
     params.voxel = voxel;
     params.unit = unit;
@@ -68,6 +69,30 @@ TEST_F(Thin, GivesWhatTheVoxelGridGives) {
       expect_same(thin, gridded(whole, size));
     }
   }
+}
+
+/// A floor of 50 x 50 voxels of 2 cm with 20 points each, and single points over it, two voxels apart at least.
+Cloud floor_with_strays(int strays) {
+  Cloud cloud;
+  const auto add = [&](int x, int y, int z) {
+    cloud.points.emplace_back(0.02F * (static_cast<float>(x) + 0.5F), 0.02F * (static_cast<float>(y) + 0.5F),
+                              0.02F * (static_cast<float>(z) + 0.5F));
+  };
+  for (int i = 0; i < 20 * 2500; ++i) add(i % 50, i / 50 % 50, 0);
+  for (int i = 0; i < strays; ++i) add(2 * (i % 25), 2 * (i / 25 % 25), 10 + 2 * (i / 625));
+  return cloud;
+}
+
+TEST_F(Thin, LeavesOutNoiseAndSaysWhereThatIsMuch) {
+  const auto thinned = [&](int strays, double share) {
+    WriteCloud::run({input(floor_with_strays(strays))}, {{"s.ply"}, true}, context);
+    return read("s.ply", 0.02, ReadScan::Unit::metre, share).size();
+  };
+  EXPECT_EQ(thinned(100, 0), 2600U);
+  EXPECT_EQ(thinned(100, 0.05), 2500U);
+  EXPECT_FALSE(warned("are left out as noise"));
+  EXPECT_EQ(thinned(3000, 0.05), 2500U);
+  EXPECT_TRUE(warned("3000 of 5500 voxels are left out as noise: they hold 5.7 % of the points")) << warnings();
 }
 
 TEST_F(Thin, GivesTheSameBytesWithAnyNumberOfThreads) {
