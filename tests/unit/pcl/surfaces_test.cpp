@@ -10,27 +10,17 @@
 #include "modules/pcl/greedy.hpp"
 #include "modules/pcl/marching_cubes.hpp"
 #include "modules/pcl/poisson.hpp"
+#include "tests/support/sphere.hpp"
 
 namespace atrium::pcl_nodes::surfaces_test {
 namespace {
 
 using Eigen::Vector3d;
 
-/// Points on a sphere of radius 0.5 m around (1, 2, 3), evenly spaced (Fibonacci); the cap above z = 3.3 unseen if
-/// `open`.
+/// Georeferenced.
 Cloud sphere(int count, bool open = false) {
-  Cloud cloud;
+  Cloud cloud = test::sphere(count, open);
   cloud.origin = {500000, 5400000, 0};
-  for (int i = 0; i < count; ++i) {
-    const double z = 1 - 2 * (i + 0.5) / count;
-    const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
-    const double r = std::sqrt(1 - z * z);
-    const Vector3d n(r * std::cos(angle), r * std::sin(angle), z);
-    if (open && n.z() > 0.6) continue;
-    cloud.points.emplace_back((Vector3d(1, 2, 3) + 0.5 * n).cast<float>());
-    cloud.normals.emplace_back(n.cast<float>());
-    cloud.colours.push_back(n.z() > 0 ? Colour{255, 0, 0} : Colour{0, 0, 255});
-  }
   return cloud;
 }
 
