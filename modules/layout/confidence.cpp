@@ -4,9 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "modules/layout/ceilings_behind.hpp"
 #include "modules/layout/covered_floor.hpp"
+#include "modules/layout/doubled_walls.hpp"
 #include "modules/layout/floor_beyond.hpp"
 #include "modules/layout/kept_rooms.hpp"
 #include "modules/layout/room_doubts.hpp"
@@ -72,25 +74,78 @@ std::vector<std::string> rooms_without_a_way(const Building& building) {
   return names;
 }
 
+/// How many doors and passages lead to what is in no room.
+std::size_t ways_out(const Building& building) {
+  return static_cast<std::size_t>(
+      std::count_if(building.openings.begin(), building.openings.end(), [](const BuildingOpening& opening) {
+        return (opening.kind == "door" || opening.kind == "passage") && (opening.room_a < 0 || opening.room_b < 0);
+      }));
+}
+
 /// Floor in no room: under a ceiling, or between walls beside the rooms.
 void judge_missing_floor(const PlanePrimitives& planes, const Frame& frame, Building& building) {
   const CoveredFloor covered = covered_floor_without_room(building, planes);
   const FloorBeyond beyond = floor_beyond_rooms(building, planes);
+  const std::size_t ways = ways_out(building);
   if (covered.missing > 0)
     building.doubts.push_back(fmt::format("{:.1f} m2 of floor under a ceiling are in no room (the largest piece {})",
                                           covered.missing, frame.place(covered.where)));
   else if (beyond.area > 0)
-    building.doubts.push_back(
-        fmt::format("{:.1f} m2 of floor between walls are in no room (the largest piece, {:.1f} "
-                    "m2, {}): rooms, parts of them or a terrace, seen through openings only",
-                    beyond.area, beyond.largest, frame.place(beyond.where)));
+    building.doubts.push_back(fmt::format(
+        "{:.1f} m2 of floor between walls are in no room (the largest piece, {:.1f} "
+        "m2, {}): rooms, parts of them or a terrace, seen through openings only; doors that lead out of the model: {}",
+        beyond.area, beyond.largest, frame.place(beyond.where), ways));
   const double area = area_of(building);
   building.confidence *= std::min(ramp(area / (area + covered.missing), 0.3, 0.9, 0.3, 1),
                                   ramp(area / (area + beyond.area), 0.3, 0.9, 0.8, 1));
+  // One way out is the entrance; behind more of them are rooms of which little was seen.
+  if (beyond.area > 0 && ways > 1) {
+    const auto rooms = static_cast<double>(building.rooms.size());
+    building.confidence *= ramp(rooms / (rooms + static_cast<double>(ways - 1)), 0.3, 0.9, 0.6, 1);
+  }
+}
+
+/// How far apart the points of the building's faces are, metres.
+double spacing_of(const Building& building, const PlanePrimitives& planes) {
+  std::vector<bool> used(planes.primitives.size(), false);
+  double area = 0;
+  for (const auto& face : building.faces) {
+    if (face.primitive < 0) continue;
+    used[static_cast<std::size_t>(face.primitive)] = true;
+    area += face.observed * area_of(building, face);
+  }
+  double points = 0;
+  for (std::size_t p = 0; p < used.size(); ++p)
+    if (used[p]) points += static_cast<double>(planes.primitives[p].inliers.size());
+  return points > 0 ? std::sqrt(area / points) : 0;
+}
+
+/// What points far apart cannot show is missing or in the wrong place: leaves, jambs, furniture beside walls, low
+/// steps.
+void judge_spacing(const PlanePrimitives& planes, Building& building) {
+  constexpr double sparse = 0.08, far = 0.2;  // metres
+  const double spacing = spacing_of(building, planes);
+  if (spacing < sparse) return;
+  building.confidence *= ramp(spacing, sparse, far, 0.9, 0.4);
+  building.doubts.push_back(fmt::format(
+      "the points are {:.0f} cm apart: doors, windows, cupboards and what is thinner than {:.0f} cm cannot be "
+      "told apart surely",
+      100 * spacing, 300 * spacing));
+}
+
+/// A scan whose parts do not fit together shows its walls twice.
+void judge_doubled(const DoubledWalls& doubled, Building& building) {
+  constexpr double least = 0.15, most = 0.6;  // share of the walls
+  if (doubled.share < least) return;
+  building.confidence *= ramp(doubled.share, least, most, 0.7, 0.4);
+  building.doubts.push_back(fmt::format(
+      "{:.0f} % of the walls were seen twice, {:.0f} cm apart and turned by {:.1f} degrees: the scan seems to "
+      "be made of parts that do not fit together",
+      100 * doubled.share, 100 * doubled.apart, doubled.turned));
 }
 
 /// Judges the building by its rooms and by what they leave out.
-void judge(const PlanePrimitives& planes, const Frame& frame, Building& building) {
+void judge(const PlanePrimitives& planes, const DoubledWalls& doubled, const Frame& frame, Building& building) {
   building.confidence = mean_confidence(building);
   constexpr double certain = 0.9;
   if (const double upright = frame.back.upright; upright < certain) {
@@ -109,6 +164,8 @@ void judge(const PlanePrimitives& planes, const Frame& frame, Building& building
     building.doubts.push_back(fmt::format("no door or passage was found into {} of {} rooms ({}{})", closed.size(),
                                           building.rooms.size(), listed(closed, 5), closed.size() > 5 ? "; …" : ""));
   judge_missing_floor(planes, frame, building);
+  judge_spacing(planes, building);
+  judge_doubled(doubled, building);
 }
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -160,7 +217,7 @@ Confidence::Out Confidence::run(const In& in, const Params& params, Context& con
       context.warn(fmt::format("{} is left out, confidence {:.2f}: {}", frame.room(building.rooms[r]),
                                building.rooms[r].confidence, listed(building.rooms[r].doubts, 3)));
   building = with_rooms(building, kept);
-  judge(planes, frame, building);
+  judge(planes, doubled_walls(planes, walls, context), frame, building);
   if (building.confidence < params.min_confidence)
     refuse(fmt::format("the rooms found have confidence {:.2f}: {}", building.confidence,
                        building.doubts.empty() ? listed(building.rooms[0].doubts, 3) : building.doubts[0]));

@@ -30,9 +30,12 @@ namespace atrium::layout {
 ///
 /// The building's confidence is that of its rooms by area, times 1 if they hold 90 % or more of the floor that lies
 /// under a ceiling 1.8 m or more above it, down to 0.3 if they hold 30 % of it (pieces of less than 2 m2 do not count);
-/// times 1 down to 0.8 by the same shares of the floor that was seen beside the rooms between walls (FloorBeyond);
-/// times 1 if z is up with 90 % or more (Transform::upright), down to 0.5 at 40 %; and times 1 if sloping surfaces that
-/// are in no face have 5 % of the rooms' area or less, down to 0.4 at 50 %.
+/// times 1 down to 0.8 by the same shares of the floor that was seen beside the rooms between walls (FloorBeyond),
+/// and, where there is such floor, by the share of rooms among rooms and doors that lead out, but one: 1 at 90 %, 0.6
+/// at 30 %; times 1 if z is up with 90 % or more (Transform::upright), down to 0.5 at 40 %; times 1 if sloping surfaces
+/// that are in no face have 5 % of the rooms' area or less, down to 0.4 at 50 %; and, if the points of the faces are 8
+/// cm apart or more (the root of the observed area over their number), times 0.9 down to 0.4 at 20 cm. If 15 % of the
+/// walls or more were seen twice (DoubledWalls), it is times 0.7 down to 0.4 at 60 %.
 ///
 /// Where there are openings or walls with two sides, rooms into which none but windows leads are a doubt, too, without
 /// weight: doors may be missed.

@@ -133,6 +133,18 @@ double EvidenceFinder::noise_of(const BuildingFace& face) const {
   return std::min(face.residual, per_median * *middle);
 }
 
+namespace {
+
+/// Whether so much of a face was seen that holes in it mean anything.
+bool is_seen(const FaceMask& mask) {
+  constexpr double least = 0.05;
+  const Eigen::AlignedBox2i all(Eigen::Vector2i(0, 0), Eigen::Vector2i(mask.width() - 1, mask.height() - 1));
+  const auto solid = static_cast<double>(mask.count(all, Square::solid));
+  return solid > least * (solid + static_cast<double>(mask.count(all, Square::hidden)));
+}
+
+}  // namespace
+
 FaceEvidence EvidenceFinder::gather(std::size_t index) const {
   constexpr double noise_levels = 3;
   const BuildingFace& face = building_.faces[index];
@@ -149,13 +161,15 @@ FaceEvidence EvidenceFinder::gather(std::size_t index) const {
   evidence.ways_known = !view.sensors.empty();
   Eigen::AlignedBox2d box;
   for (const auto v : face.outline) box.extend(evidence.frame.to_plane(building_.vertices[v]));
-  FaceMask& mask = evidence.mask = FaceMask(box, params_.pixel);
+  constexpr double most_squares = 1 << 22;  // of larger faces the squares are larger
+  FaceMask& mask = evidence.mask = FaceMask(box, std::max(params_.pixel, std::sqrt(box.sizes().prod() / most_squares)));
   for (int y = 0; y < mask.height(); ++y)
     for (int x = 0; x < mask.width(); ++x)
       if (face_contains(building_, face, evidence.frame.to_space(mask.centre(x, y)), 0)) mask.at(x, y) = Square::hidden;
   collect_points(face, evidence);
   const double least = least_width(face, params_);
   evidence.spacing = mask.cover(evidence.on, 0.5 * least);
+  if (!is_seen(mask)) return {};
   if (evidence.ways_known)
     find_ways(face, evidence);
   else
@@ -166,19 +180,25 @@ FaceEvidence EvidenceFinder::gather(std::size_t index) const {
 }
 
 void EvidenceFinder::collect_points(const BuildingFace& face, FaceEvidence& evidence) const {
+  const double step = face.surface == SurfaceClass::wall ? 0.2 : 0;  // metres that a floor outside may lie lower
   Eigen::AlignedBox3d around;
   for (const auto v : face.outline) {
     around.extend(building_.vertices[v] + evidence.tolerance * face.plane.normal);
     around.extend(building_.vertices[v] - depth_behind(params_) * face.plane.normal);
   }
+  around.min().z() -= step;
   const Eigen::AlignedBox2d& box = evidence.mask.box();
+  const Eigen::AlignedBox2d below(box.min() - Eigen::Vector2d(0, step), Eigen::Vector2d(box.max().x(), box.min().y()));
   // The floor's points do not close doors.
   const double foot = face.surface == SurfaceClass::wall ? box.min().y() + evidence.tolerance : box.min().y();
   space_.each_point_in(around, [&](const Eigen::Vector3d& p) {
     const double distance = face.plane.signed_distance(p);
     if (distance > evidence.tolerance || distance < -depth_behind(params_)) return;
     const Eigen::Vector2d at = evidence.frame.to_plane(p);
-    if (!box.contains(at)) return;
+    if (!box.contains(at)) {
+      if (distance < -evidence.tolerance && below.contains(at)) evidence.lower.emplace_back(at.x(), at.y(), -distance);
+      return;
+    }
     if (distance < -evidence.tolerance)
       evidence.behind.emplace_back(at.x(), at.y(), -distance);
     else if (at.y() >= foot)

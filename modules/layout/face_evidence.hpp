@@ -17,6 +17,7 @@ struct FaceEvidence {
   FaceMask mask;                         ///< no squares: the face was not looked at
   std::vector<Eigen::Vector2d> on;       ///< points of the face
   std::vector<Eigen::Vector3d> behind;   ///< points up to a metre behind it; the third number is how far
+  std::vector<Eigen::Vector3d> lower;    ///< the same below a wall's foot, up to 20 cm: floors outside lie lower
   std::vector<Eigen::Vector2d> through;  ///< where the ways from the room's scanner places to points behind it cross
                                          ///< it; where those are not known: the points within the wall
   double stray = 0;                      ///< how many of these there are per solid square, where none can be

@@ -185,24 +185,35 @@ bool seen_through(const FaceEvidence& evidence, const FaceHole& hole) {
 bool leads_on(const FaceEvidence& evidence, const FaceHole& hole, const Openings::Params& params) {
   constexpr double reveal = 0.15, strip = 0.1;  // metres inside of the sides; of a strip of floor
   constexpr double least = 0.2;                 // of the density of the face's own points
+  constexpr double step_share = 0.25;           // of that, of lower floors
   const FaceMask& mask = evidence.mask;
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(reveal).cwiseMin(0.25 * hole.box.sizes());
   const Eigen::AlignedBox2d inner(hole.box.min() + margin, hole.box.max() - margin);
   const auto solid = static_cast<double>(mask.count(mask.squares_in(mask.box()), Square::solid));
   const double density = static_cast<double>(evidence.on.size()) / std::max(1.0, solid);  // per square
+  const double per_square = least * density / (mask.pixel() * mask.pixel());              // per square metre
   double leaf = 0;
   std::size_t floor = 0;
   std::vector<bool> strips(static_cast<std::size_t>(std::max(1.0, inner.sizes().x() / strip)), false);
-  for (const auto& p : evidence.behind) {
-    if (p.z() < params.max_thickness) {
+  const auto beyond = [&](const Eigen::Vector3d& p) {
+    return p.z() >= params.max_thickness && p.x() > inner.min().x() && p.x() < inner.max().x();
+  };
+  const auto add_floor = [&](const Eigen::Vector3d& p) {
+    ++floor;
+    const double at = (p.x() - inner.min().x()) / inner.sizes().x() * static_cast<double>(strips.size());
+    strips[std::min(strips.size() - 1, static_cast<std::size_t>(at))] = true;
+  };
+  for (const auto& p : evidence.behind)
+    if (p.z() < params.max_thickness)
       leaf += inner.contains(Eigen::Vector2d(p.head<2>())) ? 1 : 0;
-    } else if (p.x() > inner.min().x() && p.x() < inner.max().x() && p.y() < hole.box.min().y() + reveal) {
-      ++floor;
-      const double at = (p.x() - inner.min().x()) / inner.sizes().x() * static_cast<double>(strips.size());
-      strips[std::min(strips.size() - 1, static_cast<std::size_t>(at))] = true;
-    }
-  }
-  const double per_square = least * density / (mask.pixel() * mask.pixel());
+    else if (beyond(p) && p.y() < hole.box.min().y() + reveal)
+      add_floor(p);
+  // Floors outside lie lower, by up to a step; so do strays.
+  const double most_strays =
+      step_share * per_square * inner.sizes().x() * (depth_behind(params) - params.max_thickness);
+  if (static_cast<double>(std::count_if(evidence.lower.begin(), evidence.lower.end(), beyond)) > most_strays)
+    for (const auto& p : evidence.lower)
+      if (beyond(p)) add_floor(p);
   const auto covered = static_cast<std::size_t>(std::count(strips.begin(), strips.end(), true));
   return leaf >= per_square * inner.volume() || (floor >= few && 2 * covered >= strips.size());
 }

@@ -30,19 +30,21 @@ Eigen::AlignedBox3d inner_box(const Cloud& cloud) {
   return box;
 }
 
-/// How many points there are in cubes of 10 cm and the 26 around each.
+/// How many points there are in cubes of 10 cm, larger in a box that is large for its memory, and the 26 around each.
 class Density {
  public:
   using Index = Eigen::Array<std::int64_t, 3, 1>;
-  static constexpr double edge = 0.1;
 
   Density(const Cloud& cloud, const Eigen::AlignedBox3d& box) : low_(box.min()) {
-    size_ = (box.sizes() / edge).array().ceil().cast<std::int64_t>() + 2;
+    constexpr double most_cubes = 1 << 27;
+    while ((box.sizes() / edge_).prod() > most_cubes) edge_ *= 2;
+    size_ = (box.sizes() / edge_).array().ceil().cast<std::int64_t>() + 2;
     counts_.assign(static_cast<std::size_t>(size_.prod()), 0);
     for (const auto& p : cloud.points)
       if (const auto i = index(p.cast<double>()); i != none) ++counts_[i];
     for (const std::int64_t step : {std::int64_t{1}, size_[0], size_[0] * size_[1]}) add_neighbours(step);
   }
+  double edge() const { return edge_; }
   /// 0 outside of the box.
   std::uint32_t around(const Eigen::Vector3d& p) const {
     const std::size_t i = index(p);
@@ -62,7 +64,7 @@ class Density {
  private:
   static constexpr std::size_t none = ~std::size_t{0};
   std::size_t index(const Eigen::Vector3d& p) const {
-    const Index i = ((p - low_) / edge).array().floor().cast<std::int64_t>() + 1;
+    const Index i = ((p - low_) / edge_).array().floor().cast<std::int64_t>() + 1;
     if ((i < 1).any() || (i >= size_ - 1).any()) return none;
     return static_cast<std::size_t>((i[2] * size_[1] + i[1]) * size_[0] + i[0]);
   }
@@ -78,6 +80,7 @@ class Density {
     counts_ = std::move(sums);
   }
 
+  double edge_ = 0.1;
   Eigen::Vector3d low_;
   Index size_{0, 0, 0};
   std::vector<std::uint32_t> counts_;
@@ -85,10 +88,10 @@ class Density {
 
 /// How far around a point its surface is to be taken for closed: as far as six points lie around it on average, on a
 /// surface that crosses the cubes once. Nothing if the point is nearly alone.
-double reach_of(std::uint32_t around, std::uint32_t usual) {
-  constexpr double handful = 6, least_share = 0.1, side = 3 * Density::edge;
+double reach_of(std::uint32_t around, std::uint32_t usual, double edge) {
+  constexpr double handful = 6, least_share = 0.1;
   if (around < 2 || around < least_share * usual) return -1;
-  return side * std::sqrt(handful / (std::numbers::pi * around));
+  return 3 * edge * std::sqrt(handful / (std::numbers::pi * around));
 }
 
 }  // namespace
@@ -114,7 +117,8 @@ FreeSpace::FreeSpace(const Cloud& cloud, double voxel, const Eigen::AlignedBox3d
     const Eigen::Vector3d p = cloud.points[i].cast<double>() - low_;
     const Eigen::Array<std::int64_t, 3, 1> v = (p / voxel_).array().floor().cast<std::int64_t>();
     if ((v < 0).any() || (v >= size_).any()) continue;
-    if (const double reach = reach_of(density.around(p + low_), usual); reach >= 0) occupy(p / voxel_, reach / voxel_);
+    if (const double reach = reach_of(density.around(p + low_), usual, density.edge()); reach >= 0)
+      occupy(p / voxel_, reach / voxel_);
     const Eigen::Array<std::int64_t, 3, 1> b = (p / bucket_edge).array().floor().cast<std::int64_t>();
     inside.push_back(static_cast<std::uint32_t>(i));
     place.push_back(bucket(b[0], b[1], b[2]));

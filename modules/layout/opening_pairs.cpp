@@ -64,18 +64,30 @@ void reach_foot(FaceHole& hole) {
   hole.box.min().y() = hole.foot;
 }
 
+/// Whether a hole down to the floor is too large for a door of one leaf: it is glazed down to the floor.
+bool is_glass(const Eigen::Vector2d& size) {
+  constexpr double widest = 1.3, lowest = 1.8, highest = 2.4;  // metres
+  return size.y() > highest || (size.y() >= lowest && size.x() > widest);
+}
+
+bool has_top_of_door(const FaceHole& hole) {
+  constexpr double widest = 1.3, lowest = 1.9, highest = 2.3;  // metres
+  const double top = hole.box.max().y() - hole.foot;
+  return hole.box.sizes().x() <= widest && top >= lowest && top <= highest;
+}
+
 class Joining {
  public:
-  Joining(const Building& building, const Found& found, double max_door_width)
-      : building_(building), found_(found), max_door_width_(max_door_width), behind_(opposite_faces(building)) {
+  Joining(const Building& building, const Found& found, const Openings::Params& params)
+      : building_(building), found_(found), params_(params), behind_(opposite_faces(building)) {
     for (const auto& holes : found) used_.emplace_back(holes.size(), false);
   }
 
-  std::vector<BuildingOpening> run() {
+  JoinedOpenings run() {
     for (std::size_t f = 0; f < found_.size(); ++f)
       for (std::size_t h = 0; h < found_[f].size(); ++h)
         if (!used_[f][h]) join(f, found_[f][h], used_[f].begin() + static_cast<std::ptrdiff_t>(h));
-    return std::move(openings_);
+    return std::move(joined_);
   }
 
  private:
@@ -115,14 +127,29 @@ class Joining {
       add(f, hole, &other);
       return;
     }
-    if (hole.kind == "window" && hole.foot_hidden && hole.leads_on) reach_foot(hole);
-    if (!hole.leads_on && hole.kind == "door") hole.kind = "window";  // glazed down to the floor
+    if (hole.kind == "window" && hole.foot_hidden) {
+      if (hole.leads_on)
+        reach_foot(hole);
+      else if (has_top_of_door(hole))
+        ++joined_.hidden_feet;
+    }
+    if (!hole.leads_on && hole.kind == "door") {
+      if (is_glass(hole.box.sizes())) {
+        hole.kind = "window";
+        ++joined_.blank_windows;
+      } else if (hole.box.sizes().y() < params_.min_door_height) {
+        ++joined_.low_blanks;
+        return;
+      } else {
+        ++joined_.blank_doors;
+      }
+    }
     add(f, hole, nullptr);
   }
 
   void add(std::size_t f, const FaceHole& hole, const std::size_t* other) {
     BuildingOpening opening;
-    const bool passage = hole.kind == "door" && hole.box.sizes().x() > max_door_width_;
+    const bool passage = hole.kind == "door" && hole.box.sizes().x() > params_.max_door_width;
     opening.kind = passage ? "passage" : hole.kind;
     opening.face_a = static_cast<std::int32_t>(f);
     opening.room_a = building_.faces[f].room;
@@ -135,15 +162,15 @@ class Joining {
       for (auto it = opening.outline_a.rbegin(); it != opening.outline_a.rend(); ++it)
         opening.outline_b.push_back(moved_onto(back.plane, *it));
     }
-    openings_.push_back(std::move(opening));
+    joined_.openings.push_back(std::move(opening));
   }
 
   const Building& building_;
   const Found& found_;
-  double max_door_width_;
+  const Openings::Params& params_;
   std::vector<std::vector<std::size_t>> behind_;
   std::vector<std::vector<bool>> used_;
-  std::vector<BuildingOpening> openings_;
+  JoinedOpenings joined_;
 };
 
 }  // namespace
@@ -177,8 +204,8 @@ void take_holes_from_behind(const Building& building, Evidence& evidence) {
   }
 }
 
-std::vector<BuildingOpening> joined(const Building& building, const Found& found, double max_door_width) {
-  return Joining(building, found, max_door_width).run();
+JoinedOpenings joined(const Building& building, const Found& found, const Openings::Params& params) {
+  return Joining(building, found, params).run();
 }
 
 }  // namespace atrium::layout

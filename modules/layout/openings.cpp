@@ -52,12 +52,12 @@ double height_of(const BuildingOpening& opening) {
 double width_of(const BuildingOpening& opening) { return (opening.outline_a[1] - opening.outline_a[0]).norm(); }
 
 /// Doors that are too low have upper parts that are hidden, or they are none if they are narrow or hardly higher than
-/// furniture: left out.
-void judge_low_doors(Building& building, double least_height, Context& context) {
+/// furniture: left out, as others have been.
+void judge_low_doors(Building& building, double least_height, std::size_t left_out, Context& context) {
   constexpr double least_width = 0.6, over_furniture = 1;  // metres; of a door whose upper part may be hidden
   std::size_t low = 0;
   double lowest = least_height;
-  const auto left_out = std::erase_if(building.openings, [&](const BuildingOpening& opening) {
+  left_out += std::erase_if(building.openings, [&](const BuildingOpening& opening) {
     if (opening.kind != "door" || height_of(opening) >= least_height) return false;
     if (width_of(opening) < least_width || height_of(opening) < over_furniture) return true;
     ++low;
@@ -113,7 +113,10 @@ Openings::Out Openings::run(const In& in, const Params& params, Context& context
     context.parallel_for(
         building.faces.size(),
         [&](std::size_t begin, std::size_t end) {
-          for (std::size_t f = begin; f < end; ++f) work(f);
+          for (std::size_t f = begin; f < end; ++f) {
+            context.check_cancelled();
+            work(f);
+          }
         },
         1);
   };
@@ -129,8 +132,16 @@ Openings::Out Openings::run(const In& in, const Params& params, Context& context
   take_blank_windows(blank_gaps(building, cloud, masks, evidence, found, params), found, context);
   std::size_t doubtful = 0;
   for (auto& holes : found) doubtful += std::erase_if(holes, [](const FaceHole& hole) { return hole.doubtful; });
-  building.openings = joined(building, found, params.max_door_width);
-  judge_low_doors(building, params.min_door_height, context);
+  JoinedOpenings all = joined(building, found, params);
+  building.openings = std::move(all.openings);
+  if (all.blank_doors + all.blank_windows > 0)
+    context.warn(fmt::format(
+        "openings down to the floor show neither a leaf nor a floor behind them: by their size {} are taken "
+        "for doors, {} for windows",
+        all.blank_doors, all.blank_windows));
+  if (all.hidden_feet > 0)
+    context.warn(fmt::format("windows may be doors, as the wall below them is hidden: {}", all.hidden_feet));
+  judge_low_doors(building, params.min_door_height, all.low_blanks, context);
   const auto count = [&](std::string_view kind) {
     return std::count_if(building.openings.begin(), building.openings.end(),
                          [&](const auto& opening) { return opening.kind == kind; });

@@ -26,8 +26,10 @@ namespace atrium::layout {
 /// - What begins within sill_height over its face's foot, or hides its foot and joins two rooms or has a leaf, is a
 ///   door and reaches the foot; wider than max_door_width it is a passage. Lower than min_door_height, it is
 ///   warned of; it is left out, with a warning, if it is lower than 1 m or less than 0.6 m wide, too. One that joins no
-///   rooms, shows no leaf and has no floor beyond is glazed: a window, as all others are.
-/// - Faces that are inferred have no openings of their own. Around an opening the face must have been seen: on min_rim
+///   rooms, shows no leaf and has no floor beyond is glazed if it is higher than 2.4 m, or wider than 1.3 m and
+///   1.8 m high: a window, as all others are. Else it is a door, or left out if it is low. Warnings count these.
+/// - Faces that are inferred, or of which less than 5 % was seen, have no openings of their own. Around an opening the
+/// face must have been seen: on min_rim
 ///   of a rim of 15 cm, on min_wide_rim of it for slabs and for what is wider than max_door_width. These must have
 ///   their rim on each side, wide openings in walls both jambs in the face. Openings for which too little was seen are
 ///   left out, and counted in the log.

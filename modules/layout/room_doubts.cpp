@@ -40,7 +40,9 @@ std::vector<Doubt> doubts_of(const BuildingRoom& room, const RoomEvidence& e) {
                                          percent(e.floor), percent(e.ceiling)));
   add(height_share(e.headroom, room.area, e.ceiling),
       fmt::format("it is {:.2f} m high, {}", e.headroom,
-                  e.headroom < 2 ? "too low to stand in" : "higher than rooms are: is the unit of length right?"));
+                  e.headroom < 1.8 ? "too low to stand in"
+                  : e.headroom < 2 ? "lower than rooms are"
+                                   : "higher than rooms are: is the unit of length right?"));
   add(ramp(room.area, 0.4, 0.9), fmt::format("it has {:.2f} m2, less than a room", room.area));
   add(ramp(e.width, 0.2, 0.4), fmt::format("it is a slit, {:.2f} m wide", e.width));
   add(ramp(e.inner_walls, 0.04, 0.2, 1, 0.3),

@@ -326,6 +326,53 @@ TEST(Confidence, AnUncertainAxisIsADoubtOfTheBuilding) {
   ASSERT_EQ(result.building.doubts.size(), 1U);
 }
 
+TEST(Confidence, PointsThatAreFarApartAreADoubtOfTheBuilding) {
+  double before = 1;
+  for (const double spacing : {0.05, 0.1, 0.15}) {
+    Scene scene;
+    scene.spacing = spacing;
+    scene.floor(0, 0, 4, 3).ceiling(0, 0, 4, 3).wall(0, 0, 4, 0).wall(4, 0, 4, 3).wall(4, 3, 0, 3).wall(0, 3, 0, 0);
+    Building building = box();
+    const auto primitives = static_cast<std::int32_t>(scene.planes().primitives.size());
+    ASSERT_EQ(building.faces.size(), static_cast<std::size_t>(primitives));
+    for (std::int32_t f = 0; f < primitives; ++f) {  // whichever is whose: all are used, and seen whole
+      building.faces[static_cast<std::size_t>(f)].primitive = f;
+      building.faces[static_cast<std::size_t>(f)].observed = 1;
+    }
+    const auto result = measured(building, scene);
+    EXPECT_EQ(result.warnings->mention("cm apart: doors, windows"), spacing > 0.08)
+        << spacing << (result.warnings->texts.empty() ? "" : result.warnings->texts[0]);
+    EXPECT_TRUE(spacing < 0.08 || result.building.confidence < before) << spacing;
+    before = result.building.confidence;
+  }
+}
+
+TEST(Confidence, WallsThatWereSeenTwiceAreADoubtOfTheBuilding) {
+  for (const double degrees : {0.0, 3.0})
+    for (const double shift : {0.0, 0.1}) {
+      Scene scene = shown({});
+      const Eigen::Rotation2Dd turn(degrees * EIGEN_PI / 180);
+      const auto at = [&](double x, double y) -> Eigen::Vector2d {
+        return turn * Eigen::Vector2d(x + shift, y + shift);
+      };
+      const Eigen::Vector2d corners[] = {at(0, 0), at(4, 0), at(4, 3), at(0, 3)};
+      for (int c = 0; c < 4; ++c) {
+        const Eigen::Vector2d a = corners[c], b = corners[(c + 1) % 4];
+        scene.wall(a.x(), a.y(), b.x(), b.y());
+      }
+      const auto result = judged(box(), scene);
+      const bool twice = degrees > 0 || shift > 0;
+      EXPECT_EQ(result.warnings->mention("of the walls were seen twice"), twice) << degrees << ' ' << shift;
+      EXPECT_EQ(result.building.confidence < 0.75, twice) << degrees << ' ' << shift;
+    }
+}
+
+TEST(Confidence, ACupboardAndAWallThatStepsBackAreNoSecondLayers) {
+  Scene scene = shown({});
+  scene.wall(1, 0.3, 2.5, 0.3, 0, 2.5);  // before the wall at y = 0
+  EXPECT_FALSE(judged(box(), scene).warnings->mention("seen twice"));
+}
+
 TEST(Confidence, DoubtfulRoomsAreWarnedOfAndNamedWhereTheyAre) {
   Building building = with_origin(box(), {-500000, 0, 0});
   building.origin.setZero();  // the room stands at x = 500,000 m

@@ -114,17 +114,57 @@ TEST(Openings, AWardrobeHidesTheWallAndIsNoOpening) {
   EXPECT_TRUE(laid_out(seen_from(scene.planes(), {{2, 2, 1.5}, {3, 1.5, 1.5}})).building.openings.empty());
 }
 
-TEST(Openings, AShutDoorIsADoorAndGlassDownToTheFloorAWindow) {
-  for (const bool leaf : {true, false}) {
-    const AlignedBox2d hole(Vector2d(1.5, 0), Vector2d(2.4, 2.05));
+TEST(Openings, AHoleDownToTheFloorIsADoorByItsLeafOrItsSize) {
+  for (const bool leaf : {true, false})
+    for (const double width : {0.9, 1.8}) {
+      const AlignedBox2d hole(Vector2d(1.5, 0), Vector2d(1.5 + width, 2.05));
+      Scene scene = room_with(hole);
+      add_reveal(scene, hole);
+      if (leaf) scatter(scene, {1.5, -0.25, 0}, {width, 0, 0}, {0, 0, 2.05});
+      const auto layout = laid_out(scene.planes());
+      ASSERT_EQ(layout.building.openings.size(), 1U) << leaf << width;
+      const bool by_size = width < 1;  // wider ones are glass
+      EXPECT_EQ(layout.building.openings[0].kind, leaf || by_size ? "door" : "window") << leaf << width;
+      EXPECT_EQ(layout.warnings->mention("neither a leaf nor a floor"), !leaf) << leaf << width;
+      EXPECT_NEAR(place_of(layout.building.openings[0]).min().y(), 0, 1e-3);
+      EXPECT_NEAR(place_of(layout.building.openings[0]).max().y(), 2.05, 0.03);
+    }
+}
+
+TEST(Openings, AWindowWhoseWallIsHiddenBelowMayBeADoor) {
+  for (const double top : {1.7, 2.05}) {
+    const AlignedBox2d hole(Vector2d(1.5, 0), Vector2d(2.4, top));
+    Scene scene = room_with(hole);
+    add_reveal(scene, {Vector2d(1.5, 0.5), Vector2d(2.4, top)});
+    scatter(scene, {0.8, 0.3, 0}, {2.3, 0, 0}, {0, 0, 0.5});  // a sofa
+    scatter(scene, {0.8, 0.05, 0.5}, {2.3, 0, 0}, {0, 0.25, 0});
+    const auto layout = laid_out(scene.planes());
+    ASSERT_EQ(layout.building.openings.size(), 1U) << top;
+    EXPECT_EQ(layout.building.openings[0].kind, "window") << top;
+    EXPECT_EQ(layout.warnings->mention("windows may be doors"), top > 2) << top;
+  }
+}
+
+TEST(Openings, AFloorThatLiesALittleLowerIsAWayOut) {
+  for (const double floor : {0.0, -0.1, -0.4}) {
+    const AlignedBox2d hole(Vector2d(1, 0), Vector2d(2.8, 2.05));
     Scene scene = room_with(hole);
     add_reveal(scene, hole);
-    if (leaf) scatter(scene, {1.5, -0.25, 0}, {0.9, 0, 0}, {0, 0, 2.05});
+    scatter(scene, {0.5, -2, floor}, {3, 0, 0}, {0, 1.7, 0});
     const auto layout = laid_out(scene.planes());
-    ASSERT_EQ(layout.building.openings.size(), 1U) << leaf;
-    EXPECT_EQ(layout.building.openings[0].kind, leaf ? "door" : "window");
-    EXPECT_NEAR(place_of(layout.building.openings[0]).min().y(), 0, 1e-3);
-    EXPECT_NEAR(place_of(layout.building.openings[0]).max().y(), 2.05, 0.03);
+    ASSERT_EQ(layout.building.openings.size(), 1U) << floor;
+    EXPECT_EQ(layout.building.openings[0].kind, floor > -0.2 ? "door" : "window") << floor;
+  }
+}
+
+TEST(Openings, ALowHoleAtTheFloorOfAnOuterWallThatShowsNothingIsLeftClosed) {
+  for (const Vector2d& size : {Vector2d(0.65, 0.7), Vector2d(0.9, 1.3)}) {
+    const AlignedBox2d hole(Vector2d(1.5, 0), Vector2d(1.5 + size.x(), size.y()));
+    Scene scene = room_with(hole);
+    add_reveal(scene, hole);
+    const auto layout = laid_out(scene.planes());
+    EXPECT_TRUE(layout.building.openings.empty()) << size.transpose();
+    EXPECT_TRUE(layout.warnings->mention("holes in walls down to a floor are left closed")) << size.transpose();
   }
 }
 
