@@ -34,7 +34,8 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib ${CMAKE_BINARY_DIR}/lib/atrium)
 # What OpenGL loads by name to draw without a display; no library of ours is linked with it.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "libegl-mesa0, libgl1-mesa-dri")
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "bash-completion")
+# Plans as PDF show the names of rooms; fontconfig, which the libraries for that need, comes with a font for Latin, Greek and Cyrillic.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "bash-completion, fonts-noto-core, fonts-noto-cjk")
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "light planar models of buildings from indoor point clouds
 Atrium turns raw indoor point clouds (LiDAR, RGB-D, phone scans, simulated)
 into light planar models of the building: walls, floors and ceilings as a few

@@ -21,9 +21,6 @@ struct IfcOptions {
 std::string ifc_text(const Building& building, const Elements& elements, const Mesh* furniture,
                      const IfcOptions& options);
 
-/// A coordinate reference system's name as IFC wants it: "EPSG:25832" from that or from a URN; throws Error for others.
-std::string crs_name(const std::string& text);
-
 /// An opening in the file.
 struct IfcHole {
   std::int32_t opening = -1;

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 
 #include "graph/api/error.hpp"
 #include "graph/api/walk.hpp"
 #include "modules/building/ifc_context.hpp"
+#include "modules/types/crs_name.hpp"
 
 namespace atrium::building {
 namespace {
@@ -26,8 +26,7 @@ struct CrsParts {
 
 /// What the number of a UTM zone says.
 CrsParts parts_of(const std::string& name) {
-  if (!name.starts_with("EPSG:")) return {};
-  const int code = std::stoi(name.substr(name.find(':') + 1));
+  const int code = epsg_code(name);
   const auto utm = [&](int first, const char* datum, char half) {
     return CrsParts{datum, "UTM", fmt::format("{}{}", code - first, half)};
   };
@@ -64,43 +63,6 @@ std::vector<std::vector<Eigen::Vector3d>> IfcContext::rings(const BuildingFace& 
   add(face.outline);
   for (const auto& hole : face.holes) add(hole);
   return result;
-}
-
-namespace {
-
-/// Of well-known text: its last authority is that of the whole; without one the name by which it begins.
-std::string name_in_wkt(const std::string& wkt) {
-  for (const std::string mark : {"AUTHORITY[\"EPSG\",\"", "ID[\"EPSG\","}) {
-    const auto at = wkt.rfind(mark);
-    if (at == std::string::npos) continue;
-    const auto from = at + mark.size(), to = wkt.find_first_not_of("0123456789", from);
-    if (to != std::string::npos && to > from && to - from < 8) return "EPSG:" + wkt.substr(from, to - from);
-  }
-  const auto from = wkt.find('"'), to = wkt.find('"', from + 1);
-  return from == std::string::npos || to == std::string::npos ? std::string() : wkt.substr(from + 1, to - from - 1);
-}
-
-}  // namespace
-
-std::string crs_name(const std::string& text) {
-  if (text.empty()) return text;
-  if (text.find('[') != std::string::npos)
-    if (std::string name = name_in_wkt(text); !name.empty()) return name;
-  const std::string urn = "urn:ogc:def:crs:";
-  std::string authority, code;
-  if (text.starts_with(urn)) {
-    authority = text.substr(urn.size(), text.find(':', urn.size()) - urn.size());
-    code = text.substr(text.rfind(':') + 1);
-  } else if (const auto colon = text.find(':'); colon != std::string::npos) {
-    authority = text.substr(0, colon);
-    code = text.substr(colon + 1);
-  }
-  for (auto& c : authority) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  const bool number = !code.empty() && code.size() < 8 &&
-                      std::all_of(code.begin(), code.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-  if (authority != "EPSG" || !number)
-    throw Error("'" + text + "' names no coordinate reference system", "write it as EPSG:25832");
-  return authority + ":" + code;
 }
 
 void add_relation(IfcContext& ifc, std::string_view type, const std::string& key, const StepValue& first,

@@ -6,18 +6,10 @@
 #include "modules/building/step_reader.hpp"
 #include "modules/building/upright_building.hpp"
 #include "modules/types/building_rules.hpp"
+#include "modules/types/crs_name.hpp"
 
 namespace atrium::building {
 namespace {
-
-std::string crs_of(const WriteIfc::In& in, const WriteIfc::Params& params, const Context& context) {
-  if (!params.crs.empty()) return crs_name(params.crs);
-  if (!in.scan || in.scan->crs.empty()) return {};
-  if (in.scan->unit == 1) return crs_name(in.scan->crs);
-  context.warn(fmt::format("the scan counts in units of {} m, its coordinate reference system too: it is not written",
-                           in.scan->unit));
-  return {};
-}
 
 /// How many openings no wall or slab was found for.
 std::size_t without_host(const Building& building, const Elements& elements) {
@@ -40,7 +32,7 @@ void check_furniture(const Mesh& mesh) {
 
 void WriteIfc::run(const In& in, const Params& params, Context& context) {
   check(*in.building);
-  const std::string crs = crs_of(in, params, context);
+  const std::string crs = crs_of(params.crs, in.scan.get(), context);
   const UprightBuilding upright =
       upright_building(*in.building, in.transform ? *in.transform : Transform{}, crs.empty());
   if (upright.building.rooms.empty()) context.warn("the building has no rooms: the file has no elements");

@@ -21,16 +21,16 @@ double origin_height(const FloorPlan& plan) {
   return up.z() > level ? plan.origin.z() : up.dot(plan.origin);
 }
 
-Caption caption_of(const PlanStorey& storey, double origin_z) {
+Caption caption_of(const PlanStorey& storey, double origin_z, Units units) {
   Caption caption;
   caption.name = fmt::format("Storey {}", storey.index);
   caption.level =
-      storey.floor_known ? fmt::format("floor at {:.2f} m", origin_z + storey.elevation) : "elevation unknown";
-  caption.level += storey.height > 0 ? fmt::format(" \u00B7 height {:.2f} m", storey.height) : " \u00B7 height unknown";
+      storey.floor_known ? "floor at " + length_text(origin_z + storey.elevation, units) : "elevation unknown";
+  caption.level += storey.height > 0 ? " \u00B7 height " + length_text(storey.height, units) : " \u00B7 height unknown";
   double area = 0;
   for (const auto& room : storey.rooms) area += room.polygon.area();
-  caption.content = fmt::format("{} {} \u00B7 {:.2f} m\u00B2", storey.rooms.size(),
-                                storey.rooms.size() == 1 ? "room" : "rooms", area);
+  caption.content = fmt::format("{} {} \u00B7 {}", storey.rooms.size(), storey.rooms.size() == 1 ? "room" : "rooms",
+                                area_text(area, units));
   return caption;
 }
 

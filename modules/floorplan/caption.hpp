@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "modules/floorplan/units.hpp"
 #include "modules/types/floor_plan.hpp"
 
 namespace atrium::floorplan {
@@ -25,6 +26,6 @@ struct Caption {
 double origin_height(const FloorPlan& plan);
 
 /// Of a storey whose elevation counts from `origin_z`, in one line.
-Caption caption_of(const PlanStorey& storey, double origin_z);
+Caption caption_of(const PlanStorey& storey, double origin_z, Units units = Units::metres);
 
 }  // namespace atrium::floorplan

@@ -1,7 +1,5 @@
 #include "modules/floorplan/dimensions.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -153,8 +151,16 @@ struct Box {
   int row;
 };
 
+// How lengths are written, and how large.
+struct Measure {
+  double mm;
+  Units units;
+  bool plain;
+};
+
 // Texts stand above the line where they fit between their stops, else in the nearest free row outside of it.
-void add_labels(DimensionChain& chain, double mm) {
+void add_labels(DimensionChain& chain, const Measure& measure) {
+  const double mm = measure.mm;
   std::vector<Box> taken;
   const double gap = 0.6 * mm;
   // "Above" is to the left of a text that runs upwards.
@@ -163,7 +169,7 @@ void add_labels(DimensionChain& chain, double mm) {
   for (const bool wide : {true, false})
     for (std::size_t i = 1; i < chain.stops.size(); ++i) {
       const double a = chain.stops[i - 1], b = chain.stops[i];
-      const std::string text = fmt::format("{:.2f}", b - a);
+      const std::string text = dimension_text(b - a, measure.units, measure.plain);
       const double half = 0.5 * text_width(text, digits * mm), middle = 0.5 * (a + b);
       if ((2 * half + 2 * gap <= b - a) != wide) continue;
       Box box{middle - half, middle + half, wide ? 0 : 1};
@@ -177,11 +183,14 @@ void add_labels(DimensionChain& chain, double mm) {
       const double outside = above_is_outside ? above + box.row * row : below + (box.row - 1) * row;
       const double aside = box.row == 0 ? upwards * above : chain.outwards() * outside;
       if (box.row > 0) chain.depth = std::max(chain.depth, (outside + digits) * mm);
-      chain.labels.push_back({chain.at(middle, chain.line + aside * mm), chain.upright(), digits * mm, text});
+      chain.labels.push_back(
+          {chain.at(middle, chain.line + aside * mm), chain.upright(), digits * mm, text, a, b, box.row > 0});
     }
 }
 
-DimensionChain chain_of(Side side, const Bounds2& box, std::vector<double> stops, double offset, double mm) {
+DimensionChain chain_of(Side side, const Bounds2& box, std::vector<double> stops, double offset,
+                        const Measure& measure) {
+  const double mm = measure.mm;
   DimensionChain chain;
   chain.side = side;
   chain.stops = std::move(stops);
@@ -189,7 +198,7 @@ DimensionChain chain_of(Side side, const Bounds2& box, std::vector<double> stops
   const double edge = chain.upright() ? corner.x() : corner.y();
   chain.from_building = edge + chain.outwards() * 2 * mm;
   chain.line = edge + chain.outwards() * offset;
-  add_labels(chain, mm);
+  add_labels(chain, measure);
   return chain;
 }
 
@@ -197,14 +206,19 @@ DimensionChain chain_of(Side side, const Bounds2& box, std::vector<double> stops
 
 double text_width(const std::string& text, double height) {
   double width = 0;  // in units of the height of its digits
-  for (const char c : text) {
-    if ((static_cast<unsigned char>(c) & 0xC0U) == 0x80U) continue;  // not the first byte of a character
-    width += c == '.' || c == ' ' || c == 'i' || c == 'l' ? 0.45 : 0.9;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    if ((c & 0xC0U) == 0x80U) continue;                                   // not the first byte of a character
+    const bool prime = c == 0xE2 && text.compare(i, 2, "\xE2\x80") == 0;  // of feet and inches
+    width += c == '.' || c == ' ' || c == 'i' || c == 'l' || c == '\'' || c == '"' || prime ? 0.45
+             : c == 0xC2                                                                    ? 1.3
+                                                                                            : 0.9;  // ½ is wide
   }
   return width * height;
 }
 
-std::vector<DimensionChain> dimensions_of(const PlanStorey& storey, double mm) {
+std::vector<DimensionChain> dimensions_of(const PlanStorey& storey, double mm, Units units, bool plain) {
+  const Measure measure{mm, units, plain};
   const Bounds2 box = bounds(storey), walls = wall_bounds(storey);
   std::vector<DimensionChain> chains;
   if (walls.empty()) return chains;
@@ -216,7 +230,7 @@ std::vector<DimensionChain> dimensions_of(const PlanStorey& storey, double mm) {
     double offset = first_line * mm;
     const auto add_row = [&](const std::vector<double>& stops) {
       if (stops.size() < 2) return;
-      chains.push_back(chain_of(side, box, stops, offset, mm));
+      chains.push_back(chain_of(side, box, stops, offset, measure));
       if (!openings.empty() && offset > first_line * mm)
         chains.back().from_building = chains.back().line - chains.back().outwards() * 2 * mm;
       offset += std::max(line_step * mm, chains.back().depth + 2 * above * mm);

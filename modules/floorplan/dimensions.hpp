@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "modules/floorplan/plan_view.hpp"
+#include "modules/floorplan/units.hpp"
 
 namespace atrium::floorplan {
 
@@ -12,6 +13,8 @@ struct Label {
   bool upwards = false;  ///< runs along +y
   double height = 0;     ///< of its digits
   std::string text;
+  double from = 0, to = 0;  ///< the stops that it stands between
+  bool aside = false;       ///< not above the line, for want of room
 };
 
 enum class Side { bottom, left, top, right };
@@ -23,7 +26,7 @@ struct DimensionChain {
   double from_building = 0;   ///< where the extension lines begin, in the same direction
   double depth = 0;           ///< how far outside of the line its texts reach, beyond the first row
   std::vector<double> stops;  ///< along the line, ascending, at least two
-  std::vector<Label> labels;  ///< metres to the centimetre; one per interval, no two on top of each other
+  std::vector<Label> labels;  ///< dimension_text(); one per interval, no two on top of each other
 
   bool upright() const { return side == Side::left || side == Side::right; }
   /// The point at `along` the line and `across` it.
@@ -37,8 +40,9 @@ struct DimensionChain {
 /// The dimensions of a storey whose walls are parallel to the axes: on each side a chain of the doors and windows of
 /// the facades that look there, one of the wall faces that can be seen from there (top and right only where they differ
 /// from bottom and left), and outside of them the whole length. `mm` is how many metres of the plan are a millimetre of
-/// paper.
-std::vector<DimensionChain> dimensions_of(const PlanStorey& storey, double mm);
+/// paper; `plain` is as of dimension_text().
+std::vector<DimensionChain> dimensions_of(const PlanStorey& storey, double mm, Units units = Units::metres,
+                                          bool plain = false);
 
 /// Width of a text of the given height, at most (wide sans-serif fonts).
 double text_width(const std::string& text, double height);

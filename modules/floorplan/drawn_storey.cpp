@@ -88,8 +88,8 @@ void draw_room_labels(SvgCanvas& canvas, const Pen& pen, const PlanStorey& store
   }
   canvas.begin_group("fill=\"#1a1a1a\" text-anchor=\"middle\"");
   for (const auto& room : storey.rooms) {
-    const std::string area = fmt::format("{:.2f} m\u00B2", room.polygon.area());
-    const std::string height = room.height > 0 ? fmt::format("h {:.2f} m", room.height) : "h unknown";
+    const std::string area = area_text(room.polygon.area(), pen.units());
+    const std::string height = room.height > 0 ? "h " + length_text(room.height, pen.units()) : "h unknown";
     const bool doubtful = is_doubtful(room);
     const std::string doubt = doubtful ? confidence_text(room) : std::string();
     const double width = std::max({text_width(room.name, 2.6), text_width(area, 2.2), text_width(doubt, 1.8)}) + 2;
@@ -107,7 +107,7 @@ void draw_room_labels(SvgCanvas& canvas, const Pen& pen, const PlanStorey& store
 
 void draw_dimensions(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey) {
   const double mm = pen.mm();
-  for (const auto& chain : dimensions_of(storey, mm)) {
+  for (const auto& chain : dimensions_of(storey, mm, pen.units())) {
     canvas.begin_group("fill=\"none\" stroke=\"#444\" stroke-width=\"0.18\"");
     const double over = chain.outwards() * mm;
     pen.line(chain.at(chain.stops.front() - mm, chain.line), chain.at(chain.stops.back() + mm, chain.line));
@@ -131,7 +131,7 @@ void draw_dimensions(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey
 }
 
 void draw_caption(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey, const Caption& caption) {
-  const Bounds2 box = drawing_bounds(storey, pen.mm()), building = bounds(storey);
+  const Bounds2 box = drawing_bounds(storey, pen.mm(), pen.units()), building = bounds(storey);
   const double left = building.empty() ? box.low.x() : building.low.x();
   const Eigen::Vector2d at = pen.at({left, box.high.y()}) - Eigen::Vector2d(0, caption.height() - 4);
   const auto row = [&](double right, double down, const std::string& text) {

@@ -1,6 +1,7 @@
 #include "modules/floorplan/dxf_frame.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace atrium::floorplan {
 namespace {
@@ -37,14 +38,52 @@ enum Fixed : DxfHandle {
   model_begin,
   model_space = dxf_model_space,
   model_end,
+  own_dimension_style,
   first_layer,
 };
 
-constexpr int metres = 6, metric = 1, decimal_units = 2, plot_by_colour = 1;
+constexpr int plot_by_colour = 1;
 const Eigen::Vector2d zero = Eigen::Vector2d::Zero(), one = Eigen::Vector2d::Ones(), a3(420, 297);
 
 using Integers = std::vector<std::pair<int, int>>;
 using Reals = std::vector<std::pair<int, double>>;
+
+// How the format names units.
+int insertion_unit(Units units) { return units == Units::feet ? 1 : units == Units::millimetres ? 4 : 6; }
+int unit_style(Units units) { return units == Units::feet ? 4 : 2; }  // architectural: 11'-4 1/2"; decimal
+int decimals(Units units) { return units == Units::feet ? 1 : units == Units::millimetres ? 0 : 2; }  // half inches
+
+// What dimensions look like: the numbers of a style's groups and the header's variables for the same.
+struct DimensionSize {
+  int code;
+  const char* variable;
+  double mm;  // of paper
+};
+constexpr std::array<DimensionSize, 7> dimension_sizes{{{41, "$DIMASZ", dxf_digits},
+                                                        {42, "$DIMEXO", dxf_extension_gap},
+                                                        {43, "$DIMDLI", 8},
+                                                        {44, "$DIMEXE", dxf_extension_over},
+                                                        {140, "$DIMTXT", dxf_digits},
+                                                        {142, "$DIMTSZ", dxf_tick},
+                                                        {147, "$DIMGAP", dxf_text_gap}}};
+struct DimensionChoice {
+  int code;
+  const char* variable;
+  int value;
+};
+// Text along the line and above it, a line between the stops always, text that may be moved without a leader, a point
+// for a comma, zeros kept.
+std::array<DimensionChoice, 9> dimension_choices(Units units) {
+  return {{{73, "$DIMTIH", 0},
+           {74, "$DIMTOH", 0},
+           {77, "$DIMTAD", 1},
+           {78, "$DIMZIN", units == Units::feet ? 1 : 0},
+           {172, "$DIMTOFL", 1},
+           {271, "$DIMDEC", decimals(units)},
+           {277, "$DIMLUNIT", unit_style(units)},
+           {278, "$DIMDSEP", '.'},
+           {279, "$DIMTMOVE", 2}}};
+}
 
 // The format's way to say that there is nothing: the lower corner above the upper one.
 const Eigen::Vector2d nothing = Eigen::Vector2d::Constant(1e20);
@@ -74,12 +113,17 @@ void write_header(DxfGroups& out, const DxfFrame& frame) {
   variable("$CLAYER", 8, "0");
   variable("$CELTYPE", 6, "ByLayer");
   variable("$TEXTSTYLE", 7, "Standard");
-  variable("$DIMSTYLE", 2, "Standard");
-  variable("$LUNITS", 70, decimal_units);
-  variable("$LUPREC", 70, 3);
+  variable("$DIMSTYLE", 2, dxf_dimension_style);
+  for (const auto& [code, name, mm] : dimension_sizes) {
+    out.text(9, name);
+    out.real(40, mm * frame.mm);
+  }
+  for (const auto& [code, name, value] : dimension_choices(frame.units)) variable(name, 70, value);
+  variable("$LUNITS", 70, unit_style(frame.units));
+  variable("$LUPREC", 70, frame.units == Units::metres ? 3 : decimals(frame.units));
   variable("$AUNITS", 70, 0);
-  variable("$INSUNITS", 70, metres);
-  variable("$MEASUREMENT", 70, metric);
+  variable("$INSUNITS", 70, insertion_unit(frame.units));
+  variable("$MEASUREMENT", 70, frame.units == Units::feet ? 0 : 1);
   variable("$PSTYLEMODE", 290, plot_by_colour);
   out.text(9, "$HANDSEED");
   out.handle(5, frame.next_handle);
@@ -181,13 +225,18 @@ void write_styles(DxfGroups& out) {
   end_table(out);
 }
 
-void write_dimension_styles(DxfGroups& out) {
-  begin_table(out, "DIMSTYLE", table_of_dimension_styles, 1);
+void write_dimension_styles(DxfGroups& out, const DxfFrame& frame) {
+  begin_table(out, "DIMSTYLE", table_of_dimension_styles, 2);
   out.subclass("AcDbDimStyleTable");
   begin_row(out, "DIMSTYLE", dimension_style, table_of_dimension_styles, "AcDbDimStyleTableRecord", "Standard");
-  // Sizes of arrows, gaps and texts, in metres at 1:100.
-  for (const auto& [code, value] : Reals{{41, 0.2}, {42, 0.1}, {43, 0.375}, {44, 0.1}, {140, 0.25}, {147, 0.05}})
-    out.real(code, value);
+  // Arrows, gaps and texts.
+  for (const auto& [code, mm] : Reals{{41, 2}, {42, 1}, {43, 3.75}, {44, 1}, {140, 2.5}, {147, 0.5}})
+    out.real(code, mm * frame.mm);
+  out.handle(340, style);
+  begin_row(out, "DIMSTYLE", own_dimension_style, table_of_dimension_styles, "AcDbDimStyleTableRecord",
+            dxf_dimension_style);
+  for (const auto& [code, name, mm] : dimension_sizes) out.real(code, mm * frame.mm);
+  for (const auto& [code, name, value] : dimension_choices(frame.units)) out.integer(code, value);
   out.handle(340, style);
   end_table(out);
 }
@@ -205,18 +254,23 @@ void write_tables(DxfGroups& out, const DxfFrame& frame) {
   begin_table(out, "APPID", table_of_applications, 1);
   begin_row(out, "APPID", application, table_of_applications, "AcDbRegAppTableRecord", "ACAD");
   end_table(out);
-  write_dimension_styles(out);
-  begin_table(out, "BLOCK_RECORD", table_of_blocks, 2);
+  write_dimension_styles(out, frame);
+  begin_table(out, "BLOCK_RECORD", table_of_blocks, 2 + frame.blocks.size());
   for (const auto& [handle, name, layout] :
        {std::tuple(model_space, "*Model_Space", model_layout), std::tuple(paper_space, "*Paper_Space", paper_layout)}) {
     begin_row(out, "BLOCK_RECORD", handle, table_of_blocks, "AcDbBlockTableRecord", name, false);
     out.handle(340, layout);
   }
+  for (const auto& block : frame.blocks) {
+    begin_row(out, "BLOCK_RECORD", block.record, table_of_blocks, "AcDbBlockTableRecord", block.name, false);
+    out.handle(340, 0);
+  }
   end_table(out);
   out.end_section();
 }
 
-void write_block(DxfGroups& out, const char* name, DxfHandle block, DxfHandle begin, DxfHandle end) {
+void write_block(DxfGroups& out, const std::string& name, DxfHandle block, DxfHandle begin, DxfHandle end,
+                 const DxfGroups* entities = nullptr) {
   const auto entity = [&](const char* kind, DxfHandle handle, const char* type) {
     out.record(kind, handle, block);
     out.subclass("AcDbEntity");
@@ -226,10 +280,11 @@ void write_block(DxfGroups& out, const char* name, DxfHandle block, DxfHandle be
   };
   entity("BLOCK", begin, "AcDbBlockBegin");
   out.text(2, name);
-  out.integer(70, 0);
+  out.integer(70, entities != nullptr ? 1 : 0);  // 1: it has no name of its own
   out.point(10, zero, 0);
   out.text(3, name);
   out.text(1, "");
+  if (entities != nullptr) out.append(*entities);
   entity("ENDBLK", end, "AcDbBlockEnd");
 }
 
@@ -293,12 +348,15 @@ DxfHandle first_entity_handle(std::size_t layers) { return first_layer + static_
 
 DxfGroups dxf_beginning(const DxfFrame& frame) {
   DxfGroups out;
+  if (!frame.comment.empty()) out.text(999, dxf_text(frame.comment));
   write_header(out, frame);
   write_classes(out);
   write_tables(out, frame);
   out.begin_section("BLOCKS");
   write_block(out, "*Model_Space", model_space, model_begin, model_end);
   write_block(out, "*Paper_Space", paper_space, paper_begin, paper_end);
+  for (const auto& block : frame.blocks)
+    write_block(out, block.name, block.record, block.begin, block.end, &block.entities);
   out.end_section();
   return out;
 }

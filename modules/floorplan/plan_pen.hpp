@@ -19,6 +19,7 @@ class Pen {
     canvas_.arc(at(a), at(b), radius * sheet_.per_metre(), !left);
   }
   double mm() const { return 1 / sheet_.per_metre(); }  // metres of the plan
+  Units units() const { return sheet_.units; }
 
  private:
   PlanRing ring(const PlanRing& corners) const {

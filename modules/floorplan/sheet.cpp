@@ -34,19 +34,20 @@ Eigen::Vector2d edges() { return {2 * frame_margin, 2 * frame_margin + title_hei
 // The storeys as they are drawn at one scale.
 struct Drawings {
   int scale = 0;
+  Units units = Units::metres;
   double building = 0;                 // greatest extent of a storey, millimetres of paper
   std::vector<Bounds2> boxes;          // metres, captions included
   std::vector<Eigen::Vector2d> sizes;  // millimetres of paper
   std::vector<Caption> captions;
 };
 
-Drawings drawings_of(const std::vector<PlanStorey>& storeys, double origin_z, int scale) {
-  Drawings result{scale, 0, {}, {}, {}};
+Drawings drawings_of(const std::vector<PlanStorey>& storeys, double origin_z, int scale, Units units) {
+  Drawings result{scale, units, 0, {}, {}, {}};
   const double mm = scale / 1000.0;
   for (const auto& storey : storeys) {
-    Bounds2 box = drawing_bounds(storey, mm);
+    Bounds2 box = drawing_bounds(storey, mm, units);
     const Bounds2 building = bounds(storey);
-    Caption caption = caption_of(storey, origin_z);
+    Caption caption = caption_of(storey, origin_z, units);
     const double left = building.empty() ? box.low.x() : building.low.x();
     caption.stacked = left + caption.width() * mm > box.high.x();
     box.high.x() = std::max(box.high.x(), left + caption.width() * mm);
@@ -65,6 +66,7 @@ bool lay_out(Sheet& sheet, const Drawings& drawings, std::size_t columns) {
   const SheetGrid grid(drawings.sizes, columns);
   if ((grid.need().array() > room.array()).any()) return false;
   sheet.scale = drawings.scale;
+  sheet.units = drawings.units;
   sheet.captions = drawings.captions;
   sheet.places.clear();
   for (std::size_t i = 0; i < drawings.boxes.size(); ++i) {
@@ -148,10 +150,16 @@ Sheet on_automatic_paper(std::span<const Drawings> drawings) {
 
 }  // namespace
 
-Bounds2 drawing_bounds(const PlanStorey& storey, double mm) {
+std::optional<Paper> paper_named(std::string_view name) {
+  for (const auto& format : formats)
+    if (format.name == name) return format.paper;
+  return {};
+}
+
+Bounds2 drawing_bounds(const PlanStorey& storey, double mm, Units units) {
   Bounds2 box = bounds(storey);
   if (box.empty()) box.low = box.high = Eigen::Vector2d::Zero();
-  for (const auto& chain : dimensions_of(storey, mm)) {
+  for (const auto& chain : dimensions_of(storey, mm, units)) {
     box.add(chain.at(chain.stops.front(), chain.line));
     for (const auto& label : chain.labels) {
       const double half = 0.5 * text_width(label.text, label.height);
@@ -164,12 +172,12 @@ Bounds2 drawing_bounds(const PlanStorey& storey, double mm) {
   return box;
 }
 
-Sheet arranged(const std::vector<PlanStorey>& storeys, double origin_z, Paper paper, int scale) {
+Sheet arranged(const std::vector<PlanStorey>& storeys, double origin_z, Paper paper, int scale, Units units) {
   std::vector<Drawings> drawings;
   if (scale > 0)
-    drawings.push_back(drawings_of(storeys, origin_z, scale));
+    drawings.push_back(drawings_of(storeys, origin_z, scale, units));
   else
-    for (const int usual : scales) drawings.push_back(drawings_of(storeys, origin_z, usual));
+    for (const int usual : scales) drawings.push_back(drawings_of(storeys, origin_z, usual, units));
   if (paper == Paper::automatic) {
     if (scale == 0) return on_automatic_paper(drawings);
     Sheet sheet;

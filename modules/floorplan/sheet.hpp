@@ -1,5 +1,7 @@
 #pragma once
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "modules/floorplan/caption.hpp"
@@ -8,12 +10,15 @@
 namespace atrium::floorplan {
 
 enum class Paper { automatic, a4, a3, a2, a1, a0 };
+/// By its name, "A3"; empty for others.
+std::optional<Paper> paper_named(std::string_view name);
 
 /// How the storeys lie on the paper. Millimetres.
 struct Sheet {
   std::string paper;                    ///< "A3"; "1250 × 900 mm" where no A format has room
   Eigen::Vector2d size{297, 210};       ///< of the paper
   int scale = 100;                      ///< 1 : scale
+  Units units = Units::metres;          ///< of its labels
   std::vector<Eigen::Vector2d> places;  ///< per storey: of the plan's origin on the paper, y down
   std::vector<Caption> captions;        ///< per storey
 
@@ -28,7 +33,7 @@ constexpr double title_height = 24;  ///< of the strip inside of the frame's low
 
 /// What a storey's drawing takes, dimensions included, without its caption: metres of the plan, `mm` of them to a
 /// millimetre of paper.
-Bounds2 drawing_bounds(const PlanStorey& storey, double mm);
+Bounds2 drawing_bounds(const PlanStorey& storey, double mm, Units units = Units::metres);
 
 /// The storeys in a row, a column or a grid, the lowest at the left and at the bottom, captions included: at the
 /// greatest usual scale (1:50, 1:100, 1:200, …) at which they fit on A4 or A3, and on the smaller of the two. Where the
@@ -38,6 +43,7 @@ Bounds2 drawing_bounds(const PlanStorey& storey, double mm);
 /// `scale` (0: any) and `paper` narrow the choice: a given scale may need any paper, and on a given paper a building
 /// may be of any size. Elevations count from `origin_z`. Throws Error if the given paper is too small; its help says
 /// which would do.
-Sheet arranged(const std::vector<PlanStorey>& storeys, double origin_z, Paper paper, int scale);
+Sheet arranged(const std::vector<PlanStorey>& storeys, double origin_z, Paper paper, int scale,
+               Units units = Units::metres);
 
 }  // namespace atrium::floorplan

@@ -23,12 +23,14 @@ void draw_north(SvgCanvas& canvas, const Eigen::Vector2d& centre, double north) 
   canvas.text(letter + Eigen::Vector2d(0, 1.1), 3.2, "N", "text-anchor=\"middle\" font-weight=\"bold\"");
 }
 
-// A bar of five steps of 1, 2 or 5 times a power of ten metres, as long as there is room for.
+// A bar of five steps of 1, 2 or 5 times a power of ten metres (or feet), as long as there is room for.
 void draw_scale(SvgCanvas& canvas, const Sheet& sheet, const Eigen::Vector2d& corner) {
+  const bool feet = sheet.units == Units::feet;
+  const double per_unit = sheet.per_metre() * (feet ? 0.3048 : 1);
   double step = 0.1;
   for (const double factor : {0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0})
-    if (5 * factor * sheet.per_metre() <= 52) step = factor;
-  const double length = step * sheet.per_metre(), height = 1.6;
+    if (5 * factor * per_unit <= 52) step = factor;
+  const double length = step * per_unit, height = 1.6;
   canvas.begin_group("stroke=\"#000\" stroke-width=\"0.2\"");
   for (int i = 0; i < 5; ++i)
     canvas.rectangle(corner + Eigen::Vector2d(i * length, 0), {length, height},
@@ -36,7 +38,11 @@ void draw_scale(SvgCanvas& canvas, const Sheet& sheet, const Eigen::Vector2d& co
   canvas.end_group();
   canvas.begin_group("text-anchor=\"middle\" fill=\"#1a1a1a\"");
   for (int i = 0; i <= 5; ++i)
-    canvas.text(corner + Eigen::Vector2d(i * length, -1.2), 2.4, fmt::format("{:g}{}", i * step, i == 5 ? " m" : ""));
+    canvas.text(corner + Eigen::Vector2d(i * length, -1.2), 2.4,
+                fmt::format("{:g}{}", i * step,
+                            i < 5  ? ""
+                            : feet ? " ft"
+                                   : " m"));
   canvas.end_group();
 }
 
@@ -61,12 +67,12 @@ void draw_title(SvgCanvas& canvas, const Sheet& sheet, const TitleBlock& block) 
   const double width = right - 90 - (left + 5) - 3;
   fit({left + 5, top + 8.5}, fitted(block.title, width, 5, 3, true), "font-weight=\"bold\"");
   const std::string holds =
-      fmt::format("{} {} \u00B7 {} {} \u00B7 {:.2f} m\u00B2", block.storeys, block.storeys == 1 ? "storey" : "storeys",
-                  block.rooms, block.rooms == 1 ? "room" : "rooms", block.area);
+      fmt::format("{} {} \u00B7 {} {} \u00B7 {}", block.storeys, block.storeys == 1 ? "storey" : "storeys", block.rooms,
+                  block.rooms == 1 ? "room" : "rooms", area_text(block.area, sheet.units));
   fit({left + 5, top + 14.5}, fitted(holds, width, 2.8, 1.7), {});
   fit({left + 5, top + 19.5}, fitted(block.note, width, 2.4, 1.5), "fill=\"#555\"");
   const std::string scale = fmt::format("1:{}", sheet.scale),
-                    paper = fmt::format("on {}, dimensions in metres", sheet.paper);
+                    paper = fmt::format("on {}, dimensions in {}", sheet.paper, name_of(sheet.units));
   canvas.text({right - 85, top + 7.5}, 4, scale, "font-weight=\"bold\"");
   fit({right - 29, top + 7.5}, fitted(paper, 56 - font_width(scale, 4, true) - 2, 2.6, 1.6), "text-anchor=\"end\"");
   draw_scale(canvas, sheet, {right - 85, top + 16});

@@ -9,6 +9,7 @@
 #include "modules/floorplan/door_leaf.hpp"
 #include "modules/floorplan/drawn_openings.hpp"
 #include "modules/floorplan/dxf_drawing.hpp"
+#include "modules/floorplan/plan_crs.hpp"
 #include "modules/floorplan/room_label.hpp"
 
 namespace atrium::floorplan {
@@ -18,11 +19,12 @@ const std::vector<DxfLayer> layers{{"A-WALL", 7, 50},      {"A-WALL-CNTR", 1, 13
                                    {"A-FLOR", 9, 13},      {"A-CLNG", 4, 13},      {"A-AREA", 3, 18},
                                    {"A-DOOR", 30, 25},     {"A-GLAZ", 5, 25},      {"A-FLOR-OVHD", 8, 18},
                                    {"A-AREA-IDEN", 2, 18}, {"A-ANNO-DIMS", 8, 18}, {"A-WALL-INFR", 6, 18}};
+constexpr const char* note_layer = "A-ANNO-NOTE";
 
 class StoreyDrawing {
  public:
-  StoreyDrawing(DxfDrawing& drawing, std::string suffix, double mm)
-      : drawing_(drawing), suffix_(std::move(suffix)), mm_(mm) {}
+  StoreyDrawing(DxfDrawing& drawing, std::string suffix, double mm, Units units)
+      : drawing_(drawing), suffix_(std::move(suffix)), mm_(mm), units_(units) {}
 
   void walls(const PlanStorey& storey) {
     polygons("A-WALL", storey.bodies);
@@ -60,8 +62,8 @@ class StoreyDrawing {
     for (const auto& room : storey.rooms) {
       const LabelPlace place = label_place(room.polygon, Eigen::Vector2d(20, 15) * mm_, storey.walls);
       const Eigen::Vector2d middle = place.scale > 0 ? place.middle : room.polygon.outline.front();
-      std::vector<std::string> rows{room.name, fmt::format("{:.2f} m\u00B2", room.polygon.area())};
-      if (room.height > 0) rows.push_back(fmt::format("h {:.2f} m", room.height));
+      std::vector<std::string> rows{room.name, area_text(room.polygon.area(), units_)};
+      if (room.height > 0) rows.push_back("h " + length_text(room.height, units_, true));
       if (is_doubtful(room)) rows.push_back(confidence_text(room));
       for (std::size_t i = 0; i < rows.size(); ++i) {
         const double down = (static_cast<double>(i) - 0.5 * static_cast<double>(rows.size() - 1)) * 4 * mm_;
@@ -73,19 +75,13 @@ class StoreyDrawing {
   void dimensions(const PlanStorey& storey, double turn) {
     const std::string layer = "A-ANNO-DIMS" + suffix_;
     const Eigen::Rotation2Dd back(turn);
-    const auto line = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-      drawing_.line(layer, back * a, back * b);
-    };
-    for (const auto& chain : dimensions_of(turned(storey, turn), mm_)) {
-      line(chain.at(chain.stops.front(), chain.line), chain.at(chain.stops.back(), chain.line));
-      for (const double stop : chain.stops) {
-        const Eigen::Vector2d middle = chain.at(stop, chain.line), tick(0.7 * mm_, 0.7 * mm_);
-        line(chain.at(stop, chain.from_building), chain.at(stop, chain.line + chain.outwards() * mm_));
-        line(middle - tick, middle + tick);
-      }
+    for (const auto& chain : dimensions_of(turned(storey, turn), mm_, units_, true)) {
+      const double foot = chain.from_building - chain.outwards() * dxf_extension_gap * mm_;
       for (const auto& label : chain.labels)
-        drawing_.text(layer, back * label.middle, label.height, label.text,
-                      turn + (label.upwards ? 0.5 * std::numbers::pi : 0));
+        drawing_.dimension(
+            layer, {back * chain.at(label.from, foot), back * chain.at(label.to, foot),
+                    back * chain.at(label.from, chain.line), back * chain.at(label.to, chain.line), back * label.middle,
+                    label.text, turn + (label.upwards ? 0.5 * std::numbers::pi : 0), label.height, label.aside});
     }
   }
 
@@ -130,6 +126,7 @@ class StoreyDrawing {
   DxfDrawing& drawing_;
   std::string suffix_;
   double mm_;
+  Units units_;
 };
 
 std::vector<DxfLayer> named(const std::string& suffix) {
@@ -140,8 +137,21 @@ std::vector<DxfLayer> named(const std::string& suffix) {
 
 }  // namespace
 
+namespace {
+
+// What the numbers of the file are: its unit, and the system that they count in.
+std::string coordinates_text(Units units, const std::string& crs) {
+  const std::string_view unit = units == Units::feet ? "inches" : name_of(units);
+  return crs.empty()
+             ? fmt::format("coordinates in {} in the frame of the scan", unit)
+             : fmt::format("coordinates: {}{}", crs, units == Units::metres ? "" : fmt::format(", in {}", unit));
+}
+
+}  // namespace
+
 void WriteDxf::run(const In& in, const Params& params, Context& context) {
   const FloorPlan& plan = *in.plan;
+  const std::string crs = crs_of(params.crs, in.scan.get(), plan, context);
   const auto suffix_of = [&](const PlanStorey& storey) {
     return plan.storeys.size() > 1 ? fmt::format("-S{}", storey.index) : std::string();
   };
@@ -167,15 +177,20 @@ void WriteDxf::run(const In& in, const Params& params, Context& context) {
       view.add(box.high);
     }
   const double turn = wall_turn(plan), mm = params.scale / 1000.0;
-  DxfDrawing drawing(plan.origin.head<2>(), all, view);
+  if (!crs.empty()) all.push_back({note_layer, 8, 18});
+  DxfDrawing drawing(plan.origin.head<2>(), all, view, {params.units, params.scale});
+  drawing.comment("Atrium floor plan; " + coordinates_text(params.units, crs));
   for (const auto& storey : storeys) {
-    StoreyDrawing entities(drawing, suffix_of(storey), mm);
+    StoreyDrawing entities(drawing, suffix_of(storey), mm, params.units);
     entities.areas(storey);
     entities.walls(storey);
     entities.openings(storey);
     entities.labels(storey, turn);
     if (params.dimensions) entities.dimensions(storey, turn);
   }
+  if (const Bounds2 drawn = drawing.extents(); !crs.empty() && !drawn.empty())
+    drawing.text(note_layer, {0.5 * (drawn.low.x() + drawn.high.x()), drawn.low.y() - 6 * mm}, 2.5 * mm,
+                 coordinates_text(params.units, crs));
   const auto path = context.output(params.path.path);
   AtomicFile file(path);
   file.write(std::move(drawing).finish());

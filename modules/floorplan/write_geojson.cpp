@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "modules/floorplan/caption.hpp"
+#include "modules/floorplan/plan_crs.hpp"
 
 namespace atrium::floorplan {
 namespace {
@@ -103,13 +104,16 @@ void add_storey(Features& features, const PlanStorey& storey, double origin_z) {
 }  // namespace
 
 void WriteGeojson::run(const In& in, const Params& params, Context& context) {
+  const std::string crs = crs_of(params.crs, in.scan.get(), *in.plan, context);
   Features features(*in.plan);
   for (const auto& storey : in.plan->storeys) add_storey(features, storey, origin_height(*in.plan));
   if (in.plan->storeys.empty()) context.warn("the plan is empty: " + params.path.path + " has no features");
-  Json root{{"type", "FeatureCollection"},
-            {"name", params.crs.empty() ? "floor plan (local coordinates, not WGS 84)" : "floor plan"},
-            {"frame", "metres in the frame of the scan: x, y"}};
-  if (!params.crs.empty()) root["crs"] = {{"type", "name"}, {"properties", {{"name", params.crs}}}};
+  Json root{
+      {"type", "FeatureCollection"},
+      {"name", crs.empty() ? "floor plan (local coordinates, not WGS 84)" : "floor plan"},
+      {"frame", crs.empty() ? "metres in the frame of the scan: x, y" : "metres in " + crs + ": easting, northing"}};
+  if (const int code = epsg_code(crs); code > 0)
+    root["crs"] = {{"type", "name"}, {"properties", {{"name", "urn:ogc:def:crs:EPSG::" + std::to_string(code)}}}};
   root["features"] = features.take();
   const auto path = context.output(params.path.path);
   AtomicFile file(path);

@@ -1,5 +1,6 @@
 #pragma once
 #include "graph/api/node.hpp"
+#include "modules/types/cloud.hpp"
 #include "modules/types/floor_plan.hpp"
 
 namespace atrium::floorplan {
@@ -13,28 +14,31 @@ namespace atrium::floorplan {
 /// height_m, sill_m over the floor, thickness_m), "slab" (Polygon: a hole in the floor, or at sill_m over it), "floor"
 /// and "ceiling" (Polygon; area_m2). Outer rings run counter-clockwise, holes clockwise, the first corner is repeated
 /// at the end. Coordinates are metres in the frame of the plan, rounded to a tenth of a millimetre, with their true
-/// offsets (easting and northing of a georeferenced scan). RFC 7946 expects longitude and latitude in WGS 84: these are
-/// not, unless `crs` names their system (in the member "crs" of GeoJSON 2008, which most programs still read); the
-/// collection's "name" and "frame" say so too. All else is by RFC 7946. Where a height, an elevation or a confidence is
-/// not known it is null.
+/// offsets (easting and northing of a georeferenced scan). RFC 7946 knows longitude and latitude in WGS 84 only, unless
+/// both sides agree on another system (§4): these are not turned into degrees, so that lengths stay lengths. Where the
+/// system is known (`crs`, or that of `scan`), the member "crs" of GeoJSON 2008 names it, which GDAL, QGIS and most
+/// others still read; the collection's "frame" names it too, and its "name" says where there is none. All else is by
+/// RFC 7946. Where a height, an elevation or a confidence is not known it is null.
 ///
-/// A plan without storeys gives an empty collection, and a warning. Errors: a folder that cannot be written; then no
-/// file is there.
+/// A plan without storeys gives an empty collection, and a warning. Errors: a name that is no coordinate reference
+/// system; a folder that cannot be written; then no file is there.
 struct WriteGeojson {
   static constexpr std::string_view type = "floorplan.write_geojson";
   static constexpr std::string_view summary = "Writes a floor plan as GeoJSON: rooms, walls, floors, ceilings.";
   struct In {
     Input<FloorPlan> plan;
+    OptionalInput<Cloud> scan;
   };
   struct Params {
     OutputPath path{"floorplan.geojson"};
     std::string crs;
   };
-  static constexpr auto inputs = std::tuple{port<&In::plan>("What to write.")};
+  static constexpr auto inputs =
+      std::tuple{port<&In::plan>("What to write."),
+                 port<&In::scan>("The scan that it was made from: its coordinate reference system.")};
   static constexpr auto params = std::tuple{
       param<&Params::path>("The file, in the run's folder."),
-      param<&Params::crs>(
-          "The coordinate reference system of the input, as a URN: urn:ogc:def:crs:EPSG::25832; empty: local.")};
+      param<&Params::crs>("Coordinate reference system of the input: EPSG:25832; empty: that of `scan`, or local.")};
   static void run(const In& in, const Params& params, Context& context);
 };
 

@@ -1,21 +1,20 @@
 #pragma once
 #include "graph/api/node.hpp"
-#include "modules/floorplan/sheet.hpp"
+#include "modules/floorplan/plan_drawing.hpp"
 
 namespace atrium::floorplan {
-
-enum class Axes { walls, input };
 
 /// Draws a floor plan on a sheet of paper, true to scale when it is printed at 100 %.
 ///
 /// Walls of known thickness are filled; a wall of which one face was seen is that face's line with a hatched band where
 /// the wall is; a room's edge without a wall is dashed. Doors have their leaves open at a right angle (which way they
 /// go is custom, not measured; wide ones are passages), windows double panes, holes in the floor are crossed, those
-/// overhead dashed. Each room has its name, area and height; outside of the
-/// building stand chains of dimensions, of the wall faces seen from that side and of the whole, in metres. The sheet
-/// has a scale bar, a north arrow (the input's +y), and a title block with the scale, the number of rooms and their
-/// area; no date, so that the same plan gives the same bytes. An elevation or a height that is not known is said to be
-/// unknown; a title that is too long for its place is set smaller, or cut off with "…".
+/// overhead dashed. Each room has its name, area and height; outside of the building stand chains of dimensions, of the
+/// wall faces seen from that side and of the whole, in `units`: metres to the centimetre, whole millimetres, or feet
+/// and inches to the half inch (12′ 3½″, areas in square feet). The sheet has a scale bar, a north arrow (the input's
+/// +y), and a title block with the scale, the number of rooms and their area; no date, so that the same plan gives the
+/// same bytes. An elevation or a height that is not known is said to be unknown; a title that is too long for its place
+/// is set smaller, or cut off with "…".
 ///
 /// All storeys stand on one sheet, the lowest at the left and at the bottom, at the greatest usual scale that A4 or A3
 /// has room for (1:50, 1:100, 1:200, 1:500, …) unless `scale` and `paper` say otherwise; `storey` draws one alone. Many
@@ -40,6 +39,7 @@ struct WriteSvg {
     std::int32_t scale = 0;
     Axes axes = Axes::walls;
     bool dimensions = true;
+    Units units = Units::metres;
   };
   static constexpr auto inputs = std::tuple{port<&In::plan>("What to draw.")};
   static constexpr auto params = std::tuple{
@@ -57,6 +57,8 @@ struct WriteSvg {
       param<&Params::axes>({{"walls", Axes::walls}, {"input", Axes::input}},
                            "What is parallel to the sheet: the walls, or the input's x and y."),
       param<&Params::dimensions>("Draw the chains of dimensions."),
+      param<&Params::units>({{"m", Units::metres}, {"mm", Units::millimetres}, {"ft-in", Units::feet}},
+                            "What lengths are written in; areas are in m², of ft-in in sq ft."),
   };
   static void run(const In& in, const Params& params, Context& context);
 };

@@ -21,13 +21,13 @@ using tinygltf::Value;
 /// Builds the model: nodes and meshes of a class and storey, primitives of a plane, and their materials.
 class GlbModel {
  public:
-  GlbModel(const Mesh& mesh, const FaceImages& images, const Eigen::Vector3d& up)
+  GlbModel(const Mesh& mesh, const FaceImages& images, const Eigen::Vector3d& up, const std::string& crs)
       : mesh_(mesh),
         images_(images),
         offset_(glb_offset(mesh)),
         turn_(glb_rotation(up)),
         corners_(mesh.vertices.size()) {
-    describe();
+    describe(crs);
     image_materials_.assign(images.size(), -1);
     for (const auto& group : glb_groups(mesh)) add(group);
     buffer_.finish(model_);
@@ -35,7 +35,7 @@ class GlbModel {
   const tinygltf::Model& model() const { return model_; }
 
  private:
-  void describe() {
+  void describe(const std::string& crs) {
     model_.asset.version = "2.0";
     model_.asset.generator = "Atrium";
     Object extras;
@@ -43,6 +43,7 @@ class GlbModel {
     extras["unit"] = Value(std::string("metre"));
     extras["frame"] = Value(frame_text());
     extras["to_true"] = Value(to_true());
+    if (!crs.empty()) extras["crs"] = Value(crs);
     model_.asset.extras = Value(extras);
     model_.scenes.emplace_back();
     model_.scenes[0].name = "Atrium";
@@ -205,8 +206,9 @@ class GlbModel {
 
 }  // namespace
 
-void write_glb(const Mesh& mesh, const FaceImages& images, const Eigen::Vector3d& up, AtomicFile& file) {
-  const GlbModel glb(mesh, images, up);
+void write_glb(const Mesh& mesh, const FaceImages& images, const Eigen::Vector3d& up, const std::string& crs,
+               AtomicFile& file) {
+  const GlbModel glb(mesh, images, up, crs);
   std::ofstream stream(file.path(), std::ios::binary);
   tinygltf::TinyGLTF writer;
   errno = 0;

@@ -26,9 +26,10 @@ void write_obj(const Mesh& mesh, const FaceImages& images, const std::string& ma
 /// that names the file image_prefix + "wall_12.png".
 std::string obj_materials(const FaceImages& images, const std::string& image_prefix);
 
-/// GLB (glTF 2.0 in one file); see WriteMesh for its form. `up`: of unit length, in the mesh's frame. Errors: more than
-/// 2 GiB.
-void write_glb(const Mesh& mesh, const FaceImages& images, const Eigen::Vector3d& up, AtomicFile& file);
+/// GLB (glTF 2.0 in one file); see WriteMesh for its form. `up`: of unit length, in the mesh's frame. `crs`: the name
+/// of the coordinate reference system of true coordinates, or empty. Errors: more than 2 GiB.
+void write_glb(const Mesh& mesh, const FaceImages& images, const Eigen::Vector3d& up, const std::string& crs,
+               AtomicFile& file);
 
 /// Furthest coordinate that a binary STL file may have, metres: float32 resolves half a millimetre there.
 inline constexpr double stl_limit = 8192.0;

@@ -2,6 +2,7 @@
 
 #include "modules/io/mesh_writers.hpp"
 #include "modules/io/paths.hpp"
+#include "modules/types/crs_name.hpp"
 
 namespace atrium::io {
 namespace {
@@ -30,14 +31,14 @@ void write_obj_files(const Mesh& mesh, const FaceImages& images, const std::file
 }
 
 void write_one(const Mesh& mesh, const FaceImages& images, const Eigen::Vector3d& up, const std::string& extension,
-               bool binary, const std::filesystem::path& target) {
+               bool binary, const std::string& crs, const std::filesystem::path& target) {
   AtomicFile file(target);
   if (extension == ".ply")
     write_ply(mesh, binary, file);
   else if (extension == ".stl")
     write_stl(mesh, binary, file);
   else
-    write_glb(mesh, images, up, file);
+    write_glb(mesh, images, up, crs, file);
   file.commit();
 }
 
@@ -62,6 +63,9 @@ Mesh scaled(const Mesh& mesh, double factor) {
 
 void WriteMesh::run(const In& in, const Params& params, Context& context) {
   const std::string extension = extension_of(params.path.path);
+  const std::string crs = extension == ".glb" ? crs_of(params.crs, in.scan.get(), context) : crs_name(params.crs);
+  if (!params.crs.empty() && extension != ".glb")
+    context.warn("only .glb files can name a coordinate reference system: " + params.path.path + " does not");
   if (extension != ".ply" && extension != ".obj" && extension != ".stl" && extension != ".glb")
     throw Error("cannot write a mesh as '" + params.path.path + "'", "known extensions: .ply, .obj, .stl, .glb");
   check_mesh(*in.mesh);
@@ -83,7 +87,7 @@ void WriteMesh::run(const In& in, const Params& params, Context& context) {
   if (extension == ".obj")
     write_obj_files(mesh, images, target, context);
   else
-    write_one(mesh, images, up, extension, params.binary, target);
+    write_one(mesh, images, up, extension, params.binary, crs, target);
   context.wrote(target);
 }
 

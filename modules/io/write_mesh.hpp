@@ -1,5 +1,6 @@
 #pragma once
 #include "graph/api/node.hpp"
+#include "modules/types/cloud.hpp"
 #include "modules/types/mesh.hpp"
 #include "modules/types/plane_primitives.hpp"
 #include "modules/types/textures.hpp"
@@ -24,6 +25,8 @@ namespace atrium::io {
 /// its front only, so that one looks into the rooms from outside; objects from both sides. As glTF has float32,
 /// coordinates beyond a kilometre are shifted: `extras.origin` of the asset and of the scene says by how much, and
 /// `extras.frame` how true coordinates follow (for z up: x = origin[0] + X, y = origin[1] − Z, z = origin[2] + Y).
+/// glTF has no coordinate reference systems: `extras.crs` names that of true coordinates, as EPSG:25832, where it is
+/// known (`crs`, or that of `scan`).
 /// Faces that `textures` have an image for show it instead of the class's colour: unlit (KHR_materials_unlit), as PNG
 /// in the same file.
 ///
@@ -41,15 +44,18 @@ struct WriteMesh {
     Input<Mesh> mesh;
     OptionalInput<Textures> textures;
     OptionalInput<Transform> transform;
+    OptionalInput<Cloud> scan;
   };
   struct Params {
     OutputPath path{"mesh.ply"};
     bool binary = true;
     Unit unit = Unit::metre;
+    std::string crs;
   };
   static constexpr auto inputs =
       std::tuple{port<&In::mesh>("What to write."), port<&In::textures>("Images of its faces, for .glb and .obj."),
-                 port<&In::transform>("From the mesh's frame to one with z up, so that a .glb stands upright.")};
+                 port<&In::transform>("From the mesh's frame to one with z up, so that a .glb stands upright."),
+                 port<&In::scan>("The scan that it was made from: its coordinate reference system, for .glb.")};
   static constexpr auto params = std::tuple{
       param<&Params::path>("The file, in the run's folder; its extension is the format: .ply, .obj, .stl, .glb."),
       param<&Params::binary>("Binary where the format has both kinds (.ply, .stl); else text."),
@@ -58,7 +64,8 @@ struct WriteMesh {
                             {"mm", Unit::millimetre},
                             {"in", Unit::inch},
                             {"ft", Unit::foot}},
-                           "Unit of the coordinates in the file. A .glb is in metres always.")};
+                           "Unit of the coordinates in the file. A .glb is in metres always."),
+      param<&Params::crs>("Coordinate reference system of the input, for .glb: EPSG:25832; empty: that of `scan`.")};
   static void run(const In& in, const Params& params, Context& context);
 };
 

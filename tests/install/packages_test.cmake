@@ -32,7 +32,7 @@ call(0 "" dpkg-deb -x ${package} ${root})
 call(0 "" dpkg-deb -x ${development} ${WORK}/development)
 
 # The fields that apt goes by. Plugins, not only the program, say what they need.
-foreach(library libtbb12 libpng16-16 libvtk9 libpcl-surface1 libegl-mesa0)
+foreach(library libtbb12 libpng16-16 libvtk9 libpcl-surface1 libegl-mesa0 librsvg2-2 libpangocairo-1.0-0)
   call(0 "${library}" dpkg-deb -f ${package} Depends)
 endforeach()
 call(0 "atrium \\(= [0-9.]+\\)" dpkg-deb -f ${development} Depends)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 
 #include "tests/pipelines/steps.hpp"
 #include "tests/support/lacking.hpp"
@@ -26,10 +27,10 @@ class BuildingOutputs : public testing::Test {
         "simulate.yaml", {"points=400000", "noise=8 mm", "yaw=23 deg", "tilt=2.5 deg", "offset=[500000, 5400000, 300]"},
         *scratch / "scan");
     ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
-    const auto made = run_pipeline_file(
-        "atrium.yaml",
-        {"scan=" + (*scratch / "scan/scan.ply").string(), "objects.type=object.poisson", "objects.depth=6"},
-        *scratch / "made");
+    const auto made = run_pipeline_file("atrium.yaml",
+                                        {"scan=" + (*scratch / "scan/scan.ply").string(), "crs=EPSG:25832",
+                                         "objects.type=object.poisson", "objects.depth=6"},
+                                        *scratch / "made");
     ASSERT_EQ(made.exit_code, 0) << made.err;
   }
   static void TearDownTestSuite() { scratch.reset(); }
@@ -83,9 +84,9 @@ TEST_F(BuildingOutputs, ThePlanHasTheRoomsAndTheDoorsBetweenThem) {
 }
 
 TEST_F(BuildingOutputs, TheSceneAndItsModelAreThere) {
-  for (const auto* name :
-       {"structure.ply", "shell.ply", "scene.ply", "scene_without_ceiling.ply", "scene.glb", "scan.glb",
-        "floorplan.svg", "floorplan.dxf", "building.ifc", "accuracy.csv", "accuracy.svg", "walls.csv"})
+  for (const auto* name : {"structure.ply", "shell.ply", "scene.ply", "scene_without_ceiling.ply", "scene.glb",
+                           "scan.glb", "floorplan.svg", "floorplan.pdf", "floorplan.dxf", "building.ifc",
+                           "building.city.json", "accuracy.csv", "accuracy.svg", "walls.csv"})
     EXPECT_GT(fs::file_size(*scratch / "made" / name), 1000U) << name;
 }
 
@@ -104,8 +105,10 @@ void BuildingOutputs::expect_valid_scene() {
 
 void BuildingOutputs::expect_valid_plans() {
   const auto geojson = run_validator("validate-geojson", {made("floorplan.geojson")});
-  EXPECT_EQ(geojson.exit_code, 0) << geojson.err;
-  EXPECT_EQ(geojson.out, "");
+  EXPECT_EQ(geojson.out, made("floorplan.geojson") + ": $: has the member 'crs' (§4, B.1)\n") << geojson.err;
+  const auto city = run_validator("validate-cityjson", {made("building.city.json")});
+  EXPECT_EQ(city.exit_code, 0) << city.err;
+  EXPECT_EQ(city.out, "");
   const std::string python = python_with("ezdxf");
   if (python.empty()) ATRIUM_SKIP_LACKING("python3-ezdxf is not installed");
   const auto dxf = run_process({python, ATRIUM_SOURCE_DIR "/tests/unit/floorplan/read_dxf.py", made("floorplan.dxf")});
@@ -173,6 +176,43 @@ TEST_F(BuildingOutputs, AnotherProgramFindsTheBuildingInTheIfcFile) {
     ++walls;
   }
   EXPECT_GE(walls, root["walls"].size());
+}
+
+TEST_F(BuildingOutputs, TheCityModelHasTheRoomsAndTheirOpenings) {
+  const json city = json::parse(read_text(*scratch / "made/building.city.json")), root = building();
+  EXPECT_EQ(city["CityObjects"].size(), 1 + root["storeys"].size() + root["rooms"].size());
+  std::map<std::string, std::size_t> surfaces;
+  for (std::size_t r = 0; r < root["rooms"].size(); ++r) {
+    const json& room = city["CityObjects"]["room-" + std::to_string(r)];
+    EXPECT_EQ(room["attributes"]["name"], root["rooms"][r]["name"]);
+    ASSERT_EQ(room["geometry"][0]["type"], "Solid") << r;
+    for (const auto& surface : room["geometry"][0]["semantics"]["surfaces"]) ++surfaces[surface["type"]];
+  }
+  std::size_t doors = 0, windows = 0;
+  for (const auto& opening : root["openings"]) {
+    const std::size_t sides = (opening["face_a"] >= 0 ? 1U : 0U) + (opening["face_b"] >= 0 ? 1U : 0U);
+    if (opening["kind"] == "door") doors += sides;
+    if (opening["kind"] == "window") windows += sides;
+  }
+  EXPECT_EQ(surfaces["Door"], doors);
+  EXPECT_EQ(surfaces["Window"], windows);
+  EXPECT_GT(doors, 4U);
+  EXPECT_NEAR(city["metadata"]["geographicalExtent"][0], 500000, 30);
+  EXPECT_NEAR(city["metadata"]["geographicalExtent"][1], 5400000, 30);
+}
+
+TEST_F(BuildingOutputs, TheReferenceSystemIsInAllFilesThatCanNameIt) {
+  EXPECT_NE(read_text(*scratch / "made/building.ifc").find("IFCPROJECTEDCRS('EPSG:25832'"), std::string::npos);
+  EXPECT_NE(read_text(*scratch / "made/floorplan.dxf").find("coordinates: EPSG:25832"), std::string::npos);
+  EXPECT_NE(read_text(*scratch / "made/scene.glb").find("\"crs\":\"EPSG:25832\""), std::string::npos);
+  const json plan = json::parse(read_text(*scratch / "made/floorplan.geojson"));
+  EXPECT_EQ(plan["crs"]["properties"]["name"], "urn:ogc:def:crs:EPSG::25832");
+  const json city = json::parse(read_text(*scratch / "made/building.city.json"));
+  EXPECT_EQ(city["metadata"]["referenceSystem"], "https://www.opengis.net/def/crs/EPSG/0/25832");
+  const auto wrong = run_pipeline_file("atrium.yaml", {"scan=" + (*scratch / "scan/scan.ply").string(), "crs=UTM 32"},
+                                       *scratch / "wrong");
+  EXPECT_NE(wrong.exit_code, 0);
+  EXPECT_NE(wrong.err.find("'UTM 32' names no coordinate reference system"), std::string::npos) << wrong.err;
 }
 
 TEST_F(BuildingOutputs, TheFileGivesTheSameMeshAndPlan) {

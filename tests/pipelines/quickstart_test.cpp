@@ -48,9 +48,9 @@ TEST_F(Quickstart, SaysWhatItFoundAndWhereItIs) {
   const fs::path page = fs::path(ATRIUM_PROGRAM).parent_path().parent_path() / "share/atrium/view.html";
   EXPECT_EQ(fs::exists(checkout / "runs/scan-scan/view.html"), fs::exists(page));
   EXPECT_TRUE(lines[3].starts_with(fs::exists(page) ? "  view.html " : "  building.json ")) << lines[3];
-  for (const char* file :
-       {"building.json", "building.ifc", "rooms.csv", "floorplan.svg", "floorplan.dxf", "floorplan.geojson",
-        "shell.ply", "structure.ply", "scene.glb", "scene.ply", "scene_without_ceiling.ply"}) {
+  for (const char* file : {"building.json", "building.ifc", "rooms.csv", "building.city.json", "floorplan.svg",
+                           "floorplan.pdf", "floorplan.dxf", "floorplan.geojson", "shell.ply", "structure.ply",
+                           "scene.glb", "scene.ply", "scene_without_ceiling.ply"}) {
     EXPECT_NE(result.out.find(fs::path(file).extension()), std::string::npos) << file;
     EXPECT_TRUE(fs::exists(checkout / "runs/scan-scan" / file)) << file;
   }

@@ -64,16 +64,5 @@ TEST(Step, TheReaderSaysWhatIsWrong) {
   EXPECT_THROW(read_step(""), Error);
 }
 
-TEST(Crs, IsNamedAsIfcWantsIt) {
-  EXPECT_EQ(crs_name(""), "");
-  EXPECT_EQ(crs_name("epsg:25832"), "EPSG:25832");
-  EXPECT_EQ(crs_name("urn:ogc:def:crs:EPSG::25832"), "EPSG:25832");
-  EXPECT_EQ(crs_name("PROJCS[\"ETRS89 / UTM zone "
-                     "32N\",GEOGCS[\"ETRS89\",AUTHORITY[\"EPSG\",\"4258\"]],AUTHORITY[\"EPSG\",\"25832\"]]"),
-            "EPSG:25832");
-  EXPECT_EQ(crs_name("PROJCRS[\"local grid\",BASEGEOGCRS[\"x\"]]"), "local grid");
-  for (const auto* bad : {"UTM 32", "EPSG:", "EPSG:12a", "25832"}) EXPECT_THROW(crs_name(bad), Error) << bad;
-}
-
 }  // namespace
 }  // namespace atrium::building::step_test

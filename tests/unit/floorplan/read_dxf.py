@@ -62,6 +62,14 @@ def entry_of(entity):
         entry.update(points=[list(dxf.center), list(entity.start_point), list(entity.end_point)], radius=dxf.radius)
     elif kind == "TEXT":
         entry.update(text=decode_dxf_unicode(dxf.text), height=dxf.height, rotation=dxf.rotation, points=[list(dxf.align_point)])
+    elif kind == "DIMENSION":
+        shown = [entry_of(e) for e in entity.get_geometry_block()]
+        text = next(e for e in shown if e["type"] == "TEXT")
+        style = entity.get_dim_style()
+        entry.update(text=text["text"], height=text["height"], rotation=text["rotation"], angle=dxf.angle, style=dxf.dimstyle,
+                     measured=entity.get_measurement(), stated=dxf.actual_measurement, moved=bool(dxf.dimtype & 128),
+                     unit=style.dxf.dimlunit, decimals=style.dxf.dimdec, shown=shown,
+                     points=[list(dxf.defpoint), list(dxf.defpoint2), list(dxf.defpoint3), list(dxf.text_midpoint)])
     return entry
 
 
@@ -76,6 +84,8 @@ print(json.dumps({
     "structure": check_handles(sys.argv[1]),
     "version": doc.dxfversion,
     "units": doc.header["$INSUNITS"],
+    "metric": doc.header["$MEASUREMENT"],
+    "comment": next((line.strip() for line in open(sys.argv[1], encoding="cp1252").read().split("\n")[1:2]), ""),
     "code_page": doc.header["$DWGCODEPAGE"],
     "extents": [list(doc.header["$EXTMIN"]), list(doc.header["$EXTMAX"])],
     "view": list(doc.viewports.get("*Active")[0].dxf.center),

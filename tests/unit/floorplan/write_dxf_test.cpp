@@ -111,21 +111,92 @@ TEST_F(Dxf, OpeningsHaveLayersOfTheirOwn) {
   EXPECT_EQ(on(root, "A-FLOR-OVHD", "LINE").size(), 2U) << "only the hole in the floor is crossed";
 }
 
-TEST_F(Dxf, DimensionsAreTextsAlongTheirLines) {
+TEST_F(Dxf, DimensionsMeasureWhatTheyShow) {
   if (python().empty()) ATRIUM_SKIP_LACKING("python3-ezdxf is not installed");
   Mesh mesh = two_rooms();
   for (auto& v : mesh.vertices) v.head<2>() = Eigen::Rotation2Dd(0.5) * v.head<2>();
   WriteDxf::Params params;
   params.scale = 50;
-  const auto texts = on(read_back(plan_of(mesh), params), "A-ANNO-DIMS", "TEXT");
-  ASSERT_EQ(texts.size(), 5U);  // 4.00, 0.12, 2.88; 7.00; 3.00
-  for (const auto& text : texts) {
-    const double turn = text["text"] == "3.00" ? 90 : 0;
-    EXPECT_NEAR(text["rotation"], turn + 0.5 * 180 / 3.14159265358979, 1e-6) << text["text"];
-    EXPECT_NEAR(text["height"], 0.1, 1e-9);
+  const json root = read_back(plan_of(mesh), params);
+  const auto dimensions = on(root, "A-ANNO-DIMS", "DIMENSION");
+  std::vector<std::string> texts;
+  const double tilt = 0.5 * 180 / 3.14159265358979;
+  for (const auto& d : dimensions) {
+    texts.push_back(d["text"]);
+    const double turn = d["text"] == "3.00" ? 90 : 0;
+    EXPECT_NEAR(d["angle"], turn + tilt, 1e-6) << d["text"];
+    EXPECT_NEAR(d["rotation"], turn + tilt, 1e-6) << d["text"];
+    EXPECT_NEAR(d["height"], 0.1, 1e-9);
+    EXPECT_EQ(d["style"], "ATRIUM");
+    // What a program measures between the points, what the file says, and what it shows.
+    EXPECT_NEAR(d["measured"], d["stated"], 1e-9);
+    EXPECT_NEAR(d["stated"], std::stod(d["text"].get<std::string>()), 0.005);
+    EXPECT_EQ(d["moved"], d["text"] == "0.12") << "there is no room for it between its lines";
+    // A line with two extension lines and two ticks.
+    EXPECT_EQ(d["shown"].size(), 6U);
+    for (const auto& part : d["shown"]) EXPECT_EQ(part["layer"], "0") << "which is the layer of the dimension";
   }
+  std::sort(texts.begin(), texts.end());
+  EXPECT_EQ(texts, (std::vector<std::string>{"0.12", "2.88", "3.00", "4.00", "7.00"}));
   params.dimensions = false;
-  EXPECT_TRUE(on(read_back(plan_of(mesh), params), "A-ANNO-DIMS", "TEXT").empty());
+  EXPECT_TRUE(on(read_back(plan_of(mesh), params), "A-ANNO-DIMS", "DIMENSION").empty());
+}
+
+TEST_F(Dxf, MillimetresAndInchesScaleAllButThePaper) {
+  if (python().empty()) ATRIUM_SKIP_LACKING("python3-ezdxf is not installed");
+  Mesh mesh = two_rooms();
+  mesh.origin = {500, 300, 0};
+  struct Case {
+    Units units;
+    double per_metre;
+    int unit, metric, style, decimals;
+    std::string whole, area, height;
+  };
+  for (const auto& c :
+       std::vector<Case>{{Units::millimetres, 1000, 4, 1, 2, 0, "7000", "12.00 m\u00B2", "h 2500 mm"},
+                         {Units::feet, 1 / 0.0254, 1, 0, 4, 1, "22'-11 1/2\"", "129.2 sq ft", "h 8'-2 1/2\""}}) {
+    WriteDxf::Params params;
+    params.units = c.units;
+    const json root = read_back(plan_of(mesh), params);
+    EXPECT_EQ(root["units"], c.unit);
+    EXPECT_EQ(root["metric"], c.metric);
+    EXPECT_NEAR(root["view"][0], 503.5 * c.per_metre, 1e-6);
+    const auto walls = on(root, "A-WALL", "LWPOLYLINE");
+    ASSERT_EQ(walls.size(), 1U);
+    EXPECT_NEAR(area_of(walls[0]["points"]), 0.36 * c.per_metre * c.per_metre, 1e-4 * c.per_metre * c.per_metre);
+    std::vector<std::string> shown;
+    for (const auto& d : on(root, "A-ANNO-DIMS", "DIMENSION")) {
+      shown.push_back(d["text"]);
+      EXPECT_NEAR(d["height"], 0.2 * c.per_metre, 1e-6) << "2 mm at 1:100";
+      EXPECT_NEAR(d["measured"], d["stated"], 1e-6);
+      EXPECT_EQ(d["unit"], c.style);
+      EXPECT_EQ(d["decimals"], c.decimals);
+    }
+    for (const auto& text : on(root, "A-AREA-IDEN", "TEXT")) shown.push_back(text["text"]);
+    for (const auto& text : {c.whole, c.area, c.height})
+      EXPECT_NE(std::find(shown.begin(), shown.end(), text), shown.end()) << text;
+  }
+}
+
+TEST_F(Dxf, TheReferenceSystemIsACommentAndANote) {
+  if (python().empty()) ATRIUM_SKIP_LACKING("python3-ezdxf is not installed");
+  json root = read_back(plan_of(two_rooms()));
+  EXPECT_EQ(root["comment"], "Atrium floor plan; coordinates in metres in the frame of the scan");
+  EXPECT_TRUE(on(root, "A-ANNO-NOTE", "TEXT").empty());
+  WriteDxf::Params params;
+  params.crs = "urn:ogc:def:crs:EPSG::25832";
+  params.units = Units::millimetres;
+  root = read_back(plan_of(two_rooms()), params);
+  EXPECT_EQ(root["comment"], "Atrium floor plan; coordinates: EPSG:25832, in millimetres");
+  const auto notes = on(root, "A-ANNO-NOTE", "TEXT");
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0]["text"], "coordinates: EPSG:25832, in millimetres");
+  for (const auto& entity : root["entities"])
+    for (const auto& p : entity["points"]) EXPECT_GE(p[1], notes[0]["points"][0][1]) << "it stands below the drawing";
+  params.crs = "somewhere";
+  std::filesystem::remove(file);
+  EXPECT_THROW(WriteDxf::run({input(plan_of(two_rooms()))}, params, context), Error);
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST_F(Dxf, EachStoreyHasItsOwnLayers) {
@@ -193,7 +264,7 @@ TEST_F(Dxf, ARealDrawingNeedsNoRepair) {
   for (const std::string suffix : {"-S0", "-S1"}) {
     EXPECT_EQ(on(root, "A-DOOR" + suffix, "ARC").size(), 1U);
     EXPECT_EQ(on(root, "A-GLAZ" + suffix, "LINE").size(), 2U);
-    EXPECT_EQ(on(root, "A-ANNO-DIMS" + suffix, "TEXT").size(), 8U);
+    EXPECT_EQ(on(root, "A-ANNO-DIMS" + suffix, "DIMENSION").size(), 8U);
   }
   // The extents hold all that is drawn, and not much more.
   for (int k = 0; k < 2; ++k) {

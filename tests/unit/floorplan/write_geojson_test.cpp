@@ -151,11 +151,32 @@ TEST_F(Geojson, WhatIsNotKnownIsNull) {
   EXPECT_EQ(upside["elevation_m"], 0.0);
 }
 
-TEST_F(Geojson, TheReferenceSystemIsNamedOnlyIfGiven) {
-  EXPECT_FALSE(write(plan_of(two_rooms())).contains("crs"));
+TEST_F(Geojson, TheReferenceSystemIsNamedWhereItIsKnown) {
+  const FloorPlan plan = plan_of(two_rooms());
+  EXPECT_FALSE(write(plan).contains("crs"));
   WriteGeojson::Params params;
-  params.crs = "urn:ogc:def:crs:EPSG::25832";
-  EXPECT_EQ(write(plan_of(two_rooms()), params)["crs"]["properties"]["name"], params.crs);
+  params.crs = "EPSG:25832";
+  json root = write(plan, params);
+  EXPECT_EQ(root["crs"]["type"], "name");
+  EXPECT_EQ(root["crs"]["properties"]["name"], "urn:ogc:def:crs:EPSG::25832");
+  EXPECT_EQ(root["frame"], "metres in EPSG:25832: easting, northing");
+  const auto of_scan = [&](const std::string& crs, const FloorPlan& drawn) {
+    Cloud scan;
+    scan.crs = crs;
+    WriteGeojson::run({input(drawn), input(scan)}, {}, context);
+    return json::parse(test::read_text(host->folder / "floorplan.geojson"));
+  };
+  EXPECT_EQ(of_scan("EPSG:32633", plan)["crs"]["properties"]["name"], "urn:ogc:def:crs:EPSG::32633");
+  root = of_scan("PROJCRS[\"local grid\",BASEGEOGCRS[\"x\"]]", plan);
+  EXPECT_FALSE(root.contains("crs")) << "it has no code";
+  EXPECT_EQ(root["frame"], "metres in local grid: easting, northing");
+  EXPECT_TRUE(host->warnings.empty());
+  FloorPlan lying = plan;  // of a scan whose y is up
+  lying.to_plan.rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  EXPECT_FALSE(of_scan("EPSG:32633", lying).contains("crs"));
+  EXPECT_EQ(host->warnings.size(), 1U);
+  params.crs = "UTM 32";
+  EXPECT_THROW(write(plan, params), Error);
 }
 
 TEST_F(Geojson, AnEmptyPlanIsAnEmptyCollection) {

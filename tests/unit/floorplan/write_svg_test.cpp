@@ -88,12 +88,12 @@ void expect_drawings_apart(const Sheet& sheet, const FloorPlan& plan) {
   }
 }
 
-void expect_no_overlap(const PlanStorey& storey, double mm) {
+void expect_no_overlap(const PlanStorey& storey, double mm, Units units = Units::metres) {
   struct Box {
     Eigen::Vector2d low, high;
   };
   std::vector<Box> boxes;
-  for (const auto& chain : dimensions_of(storey, mm))
+  for (const auto& chain : dimensions_of(storey, mm, units))
     for (const auto& label : chain.labels) {
       const double half = 0.5 * text_width(label.text, label.height);
       const Eigen::Vector2d reach =
@@ -105,6 +105,24 @@ void expect_no_overlap(const PlanStorey& storey, double mm) {
       EXPECT_TRUE((boxes[i].low.array() >= boxes[j].high.array()).any() ||
                   (boxes[j].low.array() >= boxes[i].high.array()).any())
           << i << " and " << j << " at " << mm;
+}
+
+TEST_F(Svg, LengthsAreInTheUnitThatIsAskedFor) {
+  WriteSvg::Params params;
+  params.units = Units::feet;
+  std::string svg = write(with_openings(), params);
+  for (const char* text : {"22\u2032 11\u00BD\u2033", "129.2 sq ft", "h 8\u2032 2\u00BD\u2033", "5 ft",
+                           "on A4, dimensions in feet and inches"})
+    EXPECT_TRUE(has_text(svg, text)) << text;
+  EXPECT_EQ(svg.find("m\u00B2"), std::string::npos);
+  params.units = Units::millimetres;
+  svg = write(with_openings(), params);
+  for (const char* text : {"7000", "12.00 m\u00B2", "h 2500 mm", "on A4, dimensions in millimetres"})
+    EXPECT_TRUE(has_text(svg, text)) << text;
+  for (const double mm : {0.05, 0.1, 0.2, 0.5}) {
+    expect_no_overlap(with_openings().storeys[0], mm, Units::feet);
+    expect_no_overlap(with_openings().storeys[0], mm, Units::millimetres);
+  }
 }
 
 TEST_F(Svg, IsTrueToScaleOnPaper) {

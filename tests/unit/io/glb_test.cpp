@@ -260,6 +260,31 @@ TEST_F(GlbFiles, ObjNamesTheSameImages) {
   EXPECT_TRUE(host->warnings.empty()) << warnings();
 }
 
+TEST_F(GlbFiles, TheReferenceSystemStandsInTheExtras) {
+  const auto system_of = [](const tinygltf::Model& model) {
+    const auto& extras = model.scenes.at(0).extras;
+    EXPECT_EQ(extras.Has("crs"), model.asset.extras.Has("crs"));
+    return extras.Has("crs") ? extras.Get("crs").Get<std::string>() : std::string();
+  };
+  const auto written = [&](const WriteMesh::In& more, const std::string& crs) {
+    WriteMesh::In in = more;
+    in.mesh = input(two_storeys());
+    WriteMesh::Params params;
+    params.path.path = "crs.glb";
+    params.crs = crs;
+    WriteMesh::run(in, params, context);
+    return read("crs.glb");
+  };
+  EXPECT_EQ(system_of(written({}, "")), "");
+  Cloud scan;
+  scan.crs = "EPSG:32633";
+  WriteMesh::In of_scan;
+  of_scan.scan = input(scan);
+  EXPECT_EQ(system_of(written(of_scan, "")), "EPSG:32633");
+  EXPECT_EQ(system_of(written(of_scan, "urn:ogc:def:crs:EPSG::25832")), "EPSG:25832");
+  EXPECT_THROW(written({}, "UTM 32"), Error);
+}
+
 TEST_F(GlbFiles, GeoreferencedModelsStandNearZeroAndSayWhereTheyBelong) {
   Mesh mesh = two_storeys();
   mesh.origin = {500000.125, 5400000.25, 40};

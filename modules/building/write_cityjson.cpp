@@ -1,0 +1,31 @@
+#include "modules/building/write_cityjson.hpp"
+
+#include <fmt/format.h>
+
+#include "modules/building/city_model.hpp"
+#include "modules/building/upright_building.hpp"
+#include "modules/types/building_rules.hpp"
+#include "modules/types/crs_name.hpp"
+
+namespace atrium::building {
+
+void WriteCityjson::run(const In& in, const Params& params, Context& context) {
+  check(*in.building);
+  const std::string crs = crs_of(params.crs, in.scan.get(), context);
+  const int epsg = epsg_code(crs);
+  if (!crs.empty() && epsg == 0)
+    context.warn(
+        fmt::format("CityJSON names coordinate reference systems by their EPSG code: '{}' is not written", crs));
+  const UprightBuilding upright =
+      upright_building(*in.building, in.transform ? *in.transform : Transform{}, crs.empty());
+  if (upright.building.rooms.empty()) context.warn("the building has no rooms: the file has none");
+  const CityModel model = city_model(upright.building, {params.title, epsg});
+  for (const auto& warning : model.warnings) context.warn(warning);
+  const auto target = context.output(params.path.path);
+  AtomicFile file(target);
+  file.write(model.text);
+  file.commit();
+  context.wrote(target);
+}
+
+}  // namespace atrium::building

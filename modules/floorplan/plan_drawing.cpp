@@ -1,0 +1,58 @@
+#include "modules/floorplan/plan_drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "graph/api/error.hpp"
+#include "modules/floorplan/caption.hpp"
+#include "modules/floorplan/drawn_storey.hpp"
+
+namespace atrium::floorplan {
+namespace {
+
+// The band behind faces whose other side is not known.
+constexpr std::string_view hatch =
+    "<defs><pattern id=\"hatch\" width=\"0.9\" height=\"0.9\" patternUnits=\"userSpaceOnUse\" "
+    "patternTransform=\"rotate(45)\"><path d=\"M0,0V0.9\" stroke=\"#777\" stroke-width=\"0.22\"/></pattern></defs>\n";
+
+std::string note_of(const FloorPlan& plan, double turn) {
+  const double degrees = turn * 180 / std::numbers::pi;
+  std::string note = "N is +y of the input";
+  if (std::abs(degrees) >= 0.05) note += fmt::format(", whose axes are turned by {:.1f}\u00B0", -degrees);
+  if (plan.origin.head<2>().norm() >= 1000)
+    note += fmt::format("; near x {:.0f} m, y {:.0f} m", plan.origin.x(), plan.origin.y());
+  return note;
+}
+
+}  // namespace
+
+DrawnPlan drawn_plan(const FloorPlan& plan, const PlanDrawing& drawing) {
+  DrawnPlan drawn{{}, drawing.axes == Axes::walls ? wall_turn(plan) : 0};
+  for (const auto& storey : plan.storeys)
+    if (drawing.storey < 0 || storey.index == drawing.storey) drawn.storeys.push_back(turned(storey, drawn.turn));
+  if (drawing.storey >= 0 && drawn.storeys.empty())
+    throw Error(fmt::format("the plan has no storey {}", drawing.storey),
+                fmt::format("it has {}, counted from 0; -1 draws all", plan.storeys.size()));
+  return drawn;
+}
+
+std::string svg_sheet(const FloorPlan& plan, const DrawnPlan& drawn, const Sheet& sheet, const PlanDrawing& drawing,
+                      const std::string& remark) {
+  const auto& storeys = drawn.storeys;
+  TitleBlock block{drawing.title, note_of(plan, drawn.turn) + remark, 0, storeys.size(), 0, -drawn.turn};
+  SvgCanvas canvas(sheet.size.x(), sheet.size.y(), drawing.title);
+  canvas.raw(hatch);
+  for (std::size_t i = 0; i < storeys.size(); ++i) {
+    draw_storey(canvas, sheet, i, storeys[i], drawing.dimensions);
+    block.rooms += storeys[i].rooms.size();
+    for (const auto& room : storeys[i].rooms) block.area += room.polygon.area();
+  }
+  if (storeys.empty())
+    canvas.text(0.5 * sheet.size, 4, "The plan is empty: no walls, floors or ceilings.", "text-anchor=\"middle\"");
+  draw_title(canvas, sheet, block);
+  return std::move(canvas).finish();
+}
+
+}  // namespace atrium::floorplan

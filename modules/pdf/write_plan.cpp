@@ -1,0 +1,82 @@
+#include "modules/pdf/write_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "modules/floorplan/caption.hpp"
+#include "modules/pdf/pdf_pages.hpp"
+
+namespace atrium::pdf {
+namespace {
+
+using floorplan::DrawnPlan;
+using floorplan::Sheet;
+
+/// A plan for each page.
+std::vector<DrawnPlan> pages_of(const DrawnPlan& drawn) {
+  if (drawn.storeys.empty()) return {drawn};
+  std::vector<DrawnPlan> pages;
+  pages.reserve(drawn.storeys.size());
+  for (const auto& storey : drawn.storeys) pages.push_back({{storey}, drawn.turn});
+  return pages;
+}
+
+/// The sheets of all pages at one scale, the smallest that any of them needs, and where that may be chosen on one
+/// paper.
+std::vector<Sheet> sheets_of(const std::vector<DrawnPlan>& pages, double origin_z, const WritePlan::Params& params) {
+  std::vector<Sheet> sheets;
+  const auto arrange = [&](floorplan::Paper paper, int scale) {
+    sheets.clear();
+    for (const auto& page : pages)
+      sheets.push_back(floorplan::arranged(page.storeys, origin_z, paper, scale, params.units));
+  };
+  arrange(params.paper, params.scale);
+  const auto smallest =
+      std::max_element(sheets.begin(), sheets.end(), [](const auto& a, const auto& b) { return a.scale < b.scale; });
+  const int scale = smallest->scale;
+  arrange(params.paper, scale);
+  const auto largest = std::max_element(sheets.begin(), sheets.end(),
+                                        [](const auto& a, const auto& b) { return a.size.prod() < b.size.prod(); });
+  const auto paper = floorplan::paper_named(largest->paper);
+  if (params.paper == floorplan::Paper::automatic && paper) arrange(*paper, scale);
+  return sheets;
+}
+
+void warn_of_fonts(const DrawnPlan& drawn, const std::string& title, const Context& context) {
+  std::vector<std::string> texts{title};
+  for (const auto& storey : drawn.storeys)
+    for (const auto& room : storey.rooms) texts.push_back(room.name);
+  const auto lacking = texts_without_font(texts);
+  if (lacking.empty()) return;
+  context.warn(
+      fmt::format("no installed font has all characters of '{}'{}: boxes stand for them (Debian's "
+                  "fonts-noto-core and fonts-noto-cjk have most scripts)",
+                  lacking.front(), lacking.size() > 1 ? fmt::format(" and {} more texts", lacking.size() - 1) : ""));
+}
+
+}  // namespace
+
+void WritePlan::run(const In& in, const Params& params, Context& context) {
+  const FloorPlan& plan = *in.plan;
+  const floorplan::PlanDrawing drawing{params.title, params.storey,     params.paper, params.scale,
+                                       params.axes,  params.dimensions, params.units};
+  const DrawnPlan drawn = floorplan::drawn_plan(plan, drawing);
+  if (drawn.storeys.empty()) context.warn("the plan is empty: " + params.path.path + " shows nothing");
+  warn_of_fonts(drawn, params.title, context);
+  const std::vector<DrawnPlan> pages = pages_of(drawn);
+  const std::vector<Sheet> sheets = sheets_of(pages, floorplan::origin_height(plan), params);
+  PdfPages pdf(params.title);
+  for (std::size_t i = 0; i < pages.size(); ++i)
+    pdf.add(floorplan::svg_sheet(plan, pages[i], sheets[i], drawing,
+                                 pages.size() > 1 ? fmt::format("; page {} of {}", i + 1, pages.size()) : ""),
+            sheets[i].size);
+  const auto path = context.output(params.path.path);
+  AtomicFile file(path);
+  file.write(std::move(pdf).finish());
+  file.commit();
+  context.wrote(path);
+  return;
+}
+
+}  // namespace atrium::pdf
