@@ -102,7 +102,8 @@ YamlTree read_resolved(const std::string& file) {
 }  // namespace
 
 std::string name_of(const RunRecord::Metric& metric) {
-  return metric.fact.name.empty() ? metric.output : metric.output + "." + metric.fact.name;
+  if (metric.fact.name.empty()) return metric.output;
+  return metric.fact.name.starts_with(metric.output + ".") ? metric.fact.name : metric.output + "." + metric.fact.name;
 }
 
 RunRecord read_run(const fs::path& folder) {

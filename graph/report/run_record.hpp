@@ -33,7 +33,8 @@ struct RunRecord {
 /// or if they cannot be understood.
 RunRecord read_run(const std::filesystem::path& folder);
 
-/// The name of a metric: "faces.faces.triangles".
+/// The name of a metric: its output's and its own, "shell.faces.triangles", or its own alone where that begins with the
+/// output's, "faces.triangles".
 std::string name_of(const RunRecord::Metric& metric);
 
 }  // namespace atrium::report

@@ -1,5 +1,6 @@
 #include "modules/object/poisson.hpp"
 
+#include <fmt/format.h>
 #include <pcl/surface/poisson.h>
 
 #include <algorithm>
@@ -35,15 +36,45 @@ RawSurface poisson_surface(const Cloud& cloud, const PoissonSettings& settings) 
   return surface;
 }
 
+namespace {
+
+/// The edge of the cube that is solved in, metres: PCL's, which has the cloud's longest side times its scale.
+double cube_of(const Cloud& cloud, double scale) {
+  Eigen::AlignedBox3f box;
+  for (const auto& p : cloud.points) box.extend(p);
+  return scale * static_cast<double>(box.sizes().maxCoeff());
+}
+
+/// The least depth from the usual one on with which a cell is at most five times the spacing.
+int depth_for(double cube, double spacing) {
+  constexpr int usual = 8;  // its authors' default
+  constexpr int deepest = 12;
+  constexpr double most_spacings = 5;
+  int depth = usual;
+  while (depth < deepest && cube / (1 << depth) > most_spacings * spacing) ++depth;
+  return depth;
+}
+
+}  // namespace
+
 Poisson::Out Poisson::run(const In& in, const Params& params, Context& context) {
   Out out;
+  constexpr double trim_spacings = 3;
   out.mesh.origin = in.cloud->origin;
   if (!is_surface(*in.cloud, context)) return out;
+  if (params.depth == 1 || params.depth == 2)
+    throw Error(fmt::format("an octree of depth {} is too coarse for a surface", params.depth),
+                "depth is 3 or more, or 0: by the points' spacing");
+  const double spacing = params.depth == 0 || params.trim == 0 ? surface_spacing(*in.cloud, context) : 0;
   PoissonSettings settings;
-  settings.depth = static_cast<int>(params.depth);
+  const double cube = cube_of(*in.cloud, settings.scale);
+  settings.depth = params.depth == 0 ? depth_for(cube, spacing) : static_cast<int>(params.depth);
+  const double trim = params.trim == 0 ? trim_spacings * spacing : params.trim;
   settings.samples_per_node = params.samples_per_node;
   settings.point_weight = params.point_weight;
-  out.mesh = finished(poisson_surface(*in.cloud, settings), *in.cloud, params.trim, context);
+  context.info(fmt::format("cells of {:.3g} cm (depth {}), trimmed at {:.3g} cm", 100 * cube / (1 << settings.depth),
+                           settings.depth, 100 * trim));
+  out.mesh = finished(poisson_surface(*in.cloud, settings), *in.cloud, trim, context);
   return out;
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "graph/api/error.hpp"
 #include "modules/geometry/point_tree.hpp"
@@ -45,6 +47,24 @@ bool is_surface(const Cloud& cloud, const Context& context) {
     return false;
   }
   return true;
+}
+
+double surface_spacing(const Cloud& cloud, const Context& context) {
+  constexpr std::size_t most_places = 10000;
+  const PointTree tree(cloud.points, context);
+  const std::size_t step = cloud.size() / most_places + 1;
+  const std::size_t neighbours = std::min<std::size_t>(16, cloud.size() - 1);
+  std::vector<double> squares((cloud.size() + step - 1) / step);
+  context.parallel_for(squares.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbour> found;
+    for (std::size_t i = begin; i < end; ++i) {
+      tree.k_nearest(cloud.points[i * step], neighbours + 1, found);  // the first is the point itself
+      squares[i] = static_cast<double>(found.back().squared_distance);
+    }
+  });
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return std::sqrt(std::numbers::pi * *middle / static_cast<double>(neighbours));
 }
 
 Mesh finished(const RawSurface& surface, const Cloud& cloud, double max_distance, const Context& context) {

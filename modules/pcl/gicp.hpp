@@ -3,9 +3,7 @@
 #include <vector>
 
 #include "graph/api/node.hpp"
-#include "modules/types/cloud.hpp"
-#include "modules/types/metrics.hpp"
-#include "modules/types/poses.hpp"
+#include "modules/register/gicp.hpp"
 
 namespace atrium::pcl_nodes {
 
@@ -15,14 +13,8 @@ namespace atrium::pcl_nodes {
 struct Gicp {
   static constexpr std::string_view type = "pcl.gicp";
   static constexpr std::string_view summary = "Registers several scans by PCL's Generalized ICP.";
-  struct In {
-    Inputs<Cloud> clouds;
-  };
-  struct Out {
-    Cloud cloud;
-    Poses poses;
-    Metrics metrics;
-  };
+  using In = registration::Gicp::In;
+  using Out = registration::Gicp::Out;
   struct Params {
     double max_correspondence_distance = 0.5;
     std::int64_t iterations = 100;
@@ -33,10 +25,8 @@ struct Gicp {
     double voxel = 0.1;
     std::vector<double> initial;
   };
-  static constexpr auto inputs = std::tuple{port<&In::clouds>("Scans, the first gives the frame.")};
-  static constexpr auto outputs = std::tuple{port<&Out::cloud>("All points, in the first scan's frame."),
-                                             port<&Out::poses>("Per scan the motion into the first one's frame."),
-                                             port<&Out::metrics>("Overlap and distances per scan.")};
+  static constexpr auto inputs = registration::Gicp::inputs;
+  static constexpr auto outputs = registration::Gicp::outputs;
   static constexpr auto params = std::tuple{
       param<&Params::max_correspondence_distance>(metres, within(0.001, 100),
                                                   "Points further apart are never taken for the same place."),

@@ -26,7 +26,8 @@ registration::PairMotion align_ndt(const registration::Points& source, const reg
   result.motion.linear() =
       Eigen::Quaterniond(Eigen::Matrix3d(matrix.topLeftCorner<3, 3>())).normalized().toRotationMatrix();
   result.motion.translation() = matrix.topRightCorner<3, 1>();
-  result.converged = ndt.hasConverged();
+  // PCL calls it converged where it has ended at its limit of steps, too.
+  result.converged = ndt.hasConverged() && ndt.getFinalNumIteration() < params.iterations;
   return result;
 }
 

@@ -3,9 +3,7 @@
 #include <vector>
 
 #include "graph/api/node.hpp"
-#include "modules/types/cloud.hpp"
-#include "modules/types/metrics.hpp"
-#include "modules/types/poses.hpp"
+#include "modules/register/gicp.hpp"
 
 namespace atrium::pcl_nodes {
 
@@ -18,14 +16,8 @@ namespace atrium::pcl_nodes {
 struct Ndt {
   static constexpr std::string_view type = "pcl.ndt";
   static constexpr std::string_view summary = "Registers several scans by the normal distributions transform (PCL).";
-  struct In {
-    Inputs<Cloud> clouds;
-  };
-  struct Out {
-    Cloud cloud;
-    Poses poses;
-    Metrics metrics;
-  };
+  using In = registration::Gicp::In;
+  using Out = registration::Gicp::Out;
   struct Params {
     double resolution = 0.5;
     double step_size = 0.1;
@@ -36,10 +28,8 @@ struct Ndt {
     double voxel = 0.1;
     std::vector<double> initial;
   };
-  static constexpr auto inputs = std::tuple{port<&In::clouds>("Scans, the first gives the frame.")};
-  static constexpr auto outputs = std::tuple{port<&Out::cloud>("All points, in the first scan's frame."),
-                                             port<&Out::poses>("Per scan the motion into the first one's frame."),
-                                             port<&Out::metrics>("Overlap and distances per scan.")};
+  static constexpr auto inputs = registration::Gicp::inputs;
+  static constexpr auto outputs = registration::Gicp::outputs;
   static constexpr auto params = std::tuple{
       param<&Params::resolution>(metres, within(0.01, 100), "Edge of a cell of the grid: several times `voxel`."),
       param<&Params::step_size>(metres, within(1e-4, 10), "Longest step of the line search."),

@@ -38,8 +38,15 @@ bool is_sound(const PlaneMesh& mesh) {
   return area(polygon) > least_area && is_convex(polygon, tolerance);
 }
 
-/// Moves the mesh's edge that is nearest to the line onto it, if that is legal.
-void translate(PlaneMesh& mesh, const Line& line, double max_separation) {
+/// Moves the given corners onto the line if the mesh stays sound.
+void move(PlaneMesh& mesh, std::initializer_list<std::size_t> which, const Line& line) {
+  PlaneMesh moved = mesh;
+  for (const std::size_t i : which) moved.corners[i] = line.nearest(mesh.corners[i]);
+  if (is_sound(moved)) mesh = std::move(moved);
+}
+
+/// Moves the mesh's vertices that are nearest to the line onto it, where that is legal.
+void translate(PlaneMesh& mesh, const Line& line, const VertexTranslation::Params& params) {
   const auto& corners = mesh.corners;
   const std::size_t n = corners.size();
   std::vector<double> distances;
@@ -51,11 +58,14 @@ void translate(PlaneMesh& mesh, const Line& line, double max_separation) {
                    [&](std::size_t l, std::size_t r) { return distances[l] < distances[r]; });
   const std::size_t first = order[0];
   const std::size_t second = order[1];
-  if (distances[second] > max_separation) return;
-  if ((first + 1) % n != second && (second + 1) % n != first) return;
-  PlaneMesh moved = mesh;
-  for (const std::size_t i : {first, second}) moved.corners[i] = line.nearest(corners[i]);
-  if (is_sound(moved)) mesh = std::move(moved);
+  const bool reaches_second = distances[second] <= params.max_separation;
+  if (params.moves == Moves::edge) {
+    const bool is_edge = (first + 1) % n == second || (second + 1) % n == first;
+    if (reaches_second && is_edge) move(mesh, {first, second}, line);
+    return;
+  }
+  if (distances[first] <= params.max_separation) move(mesh, {first}, line);
+  if (params.moves == Moves::vertices && reaches_second) move(mesh, {second}, line);
 }
 
 }  // namespace
@@ -70,7 +80,7 @@ VertexTranslation::Out VertexTranslation::run(const In& in, const Params& params
     for (const std::size_t j : in.adjacency->neighbours(i)) {
       if (meshes[j].surface != SurfaceClass::wall) continue;
       if (const auto line = intersection(meshes[i].plane, meshes[j].plane, params.parallel_tolerance))
-        translate(wall, *line, params.max_separation);
+        translate(wall, *line, params);
     }
     for (std::size_t k = 0; k < wall.corners.size(); ++k)
       if ((wall.corners[k] - meshes[i].corners[k]).norm() > 1e-9) ++out.moved;

@@ -8,8 +8,17 @@
 #include "modules/pcl/pcl_cloud.hpp"
 
 namespace atrium::registration {
+namespace {
+
+/// PCL calls a registration converged that has ended at its limit of rounds, too: the rounds tell the two apart.
+struct CountedGicp : pcl::GeneralizedIterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ> {
+  int rounds() const { return nr_iterations_; }
+};
+
+}  // namespace
+
 PairMotion align_gicp(const Points& source, const Points& target, const GicpSettings& settings) {
-  pcl::GeneralizedIterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ> gicp;
+  CountedGicp gicp;
   gicp.setInputSource(pcl_nodes::to_pcl<pcl::PointXYZ>(source));
   gicp.setInputTarget(pcl_nodes::to_pcl<pcl::PointXYZ>(target));
   gicp.setMaxCorrespondenceDistance(settings.max_distance);
@@ -30,7 +39,7 @@ PairMotion align_gicp(const Points& source, const Points& target, const GicpSett
   result.motion.linear() =
       Eigen::Quaterniond(Eigen::Matrix3d(matrix.topLeftCorner<3, 3>())).normalized().toRotationMatrix();
   result.motion.translation() = matrix.topRightCorner<3, 1>();
-  result.converged = gicp.hasConverged();
+  result.converged = gicp.hasConverged() && gicp.rounds() < settings.iterations;
   return result;
 }
 

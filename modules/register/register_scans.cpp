@@ -28,7 +28,8 @@ void report(std::size_t i, const Fitness& fit, bool converged, const std::string
   metrics.values.push_back({name + "overlap", fit.overlap, ""});
   metrics.values.push_back({name + "median_distance", fit.median, "m"});
   metrics.values.push_back({name + "rms", fit.rms, "m"});
-  if (!converged) context.warn(fmt::format("scan {}: {} did not converge", i, method));
+  if (!converged)
+    context.warn(fmt::format("scan {}: {} did not converge; allow more iterations or give a better start", i, method));
   if (fit.overlap < 0.2)
     context.warn(fmt::format("scan {} overlaps those before it by {:.0f} % only: its pose is not to be trusted", i,
                              100 * fit.overlap));

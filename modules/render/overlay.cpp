@@ -112,20 +112,32 @@ void add_colour_bar(const Pen& pen, const ColourScale& scale, double unit, int w
 
 }  // namespace
 
-void add_overlay(vtkRenderer* picture, vtkRenderer* front, const Overlay& overlay, int width, int height) {
-  const Pen pen{picture, front, overlay.dark_background ? 0.95 : 0.1};
+std::vector<Eigen::AlignedBox2d> plates_of(const Overlay& overlay, int width, int height) {
   const double unit = height * overlay.text_size;
-  const int font = static_cast<int>(unit);
+  std::vector<Eigen::AlignedBox2d> plates;
+  const auto add = [&](double x, double y, double across, double up) {
+    plates.emplace_back(Eigen::Vector2d(x, y), Eigen::Vector2d(x + across, y + up));
+  };
   if (!overlay.title.empty()) {
     const double words = 0.8 * static_cast<double>(overlay.title.size());
-    pen.plate(unit / 2, height - 2.8 * unit, std::min(words * unit + unit, width - unit), 2.3 * unit);
-    pen.text(overlay.title, unit, height - unit, static_cast<int>(1.3 * unit), Pen::Align::left, true);
+    add(unit / 2, height - 2.8 * unit, std::min(words * unit + unit, width - unit), 2.3 * unit);
   }
   std::size_t longest = 0;
   for (const auto& [name, colour] : overlay.legend) longest = std::max(longest, name.size());
   if (longest > 0)
-    pen.plate(unit / 2, unit / 2, (2.9 + 0.62 * static_cast<double>(longest)) * unit,
-              (1.6 * static_cast<double>(overlay.legend.size()) + 0.4) * unit);
+    add(unit / 2, unit / 2, (2.9 + 0.62 * static_cast<double>(longest)) * unit,
+        (1.6 * static_cast<double>(overlay.legend.size()) + 0.4) * unit);
+  return plates;
+}
+
+void add_overlay(vtkRenderer* picture, vtkRenderer* front, const Overlay& overlay, int width, int height) {
+  const Pen pen{picture, front, overlay.dark_background ? 0.95 : 0.1};
+  const double unit = height * overlay.text_size;
+  const int font = static_cast<int>(unit);
+  for (const auto& plate : plates_of(overlay, width, height))
+    pen.plate(plate.min().x(), plate.min().y(), plate.sizes().x(), plate.sizes().y());
+  if (!overlay.title.empty())
+    pen.text(overlay.title, unit, height - unit, static_cast<int>(1.3 * unit), Pen::Align::left, true);
   double y = unit;
   for (auto it = overlay.legend.rbegin(); it != overlay.legend.rend(); ++it) {
     const auto& [name, colour] = *it;

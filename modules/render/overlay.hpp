@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Geometry>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,6 +24,9 @@ struct Overlay {
 
 /// The width that a colour bar takes at the right, in lines of text.
 inline constexpr double colour_bar_width = 8.5;
+
+/// What the title and the legend cover, pixels from the lower left corner.
+std::vector<Eigen::AlignedBox2d> plates_of(const Overlay& overlay, int width, int height);
 
 /// `front` is a renderer of a layer above that of the picture: marks of one layer hide each other's overlaps.
 void add_overlay(vtkRenderer* picture, vtkRenderer* front, const Overlay& overlay, int width, int height);

@@ -56,49 +56,71 @@ Eigen::Vector3d vector_of(const std::vector<double>& v, const char* name) {
   return {v[0], v[1], v[2]};
 }
 
+/// The explicit camera: its eye and its target in the drawing's coordinates.
+std::pair<Eigen::Vector3d, Eigen::Vector3d> explicit_camera(const Drawing& drawing, const Params& params,
+                                                            double field_of_view) {
+  const Eigen::Vector3d eye = drawing.local(vector_of(params.eye, "eye"));
+  const Eigen::Vector3d target = drawing.local(vector_of(params.target, "target"));
+  if ((target - eye).norm() < 1e-6) throw Error("'eye' and 'target' are the same place", "look at another place");
+  if (!params.fit) return {eye, target};
+  const Eigen::AlignedBox3d box = drawing.bounds();
+  const int width = static_cast<int>(params.width);
+  return {fitted_eye(box, target - eye, field_of_view, width, static_cast<int>(params.height)), box.center()};
+}
+
+Camera camera_of(const std::string& view_name) {
+  if (view_name == "camera") return Camera::placed;
+  if (view_of(view_name) == View::inside) return Camera::inside;
+  return view_name == "isometric" || view_name == "top" ? Camera::above : Camera::level;
+}
+
 /// Sets the camera up and sizes the points for it.
-void aim(Drawing& drawing, const Params& params, const std::string& view_name, bool colour_bar) {
+void aim(Drawing& drawing, const Params& params, const std::string& view_name, const Overlay& overlay) {
   const int width = static_cast<int>(params.width);
   const int height = static_cast<int>(params.height);
   const int margin =
-      colour_bar ? std::min(width / 2, static_cast<int>(colour_bar_width * params.text_size * height)) : 0;
+      overlay.colours ? std::min(width / 2, static_cast<int>(colour_bar_width * params.text_size * height)) : 0;
+  const Camera camera = camera_of(view_name);
+  const double usual_field = camera <= Camera::level ? 30 : 62;
+  const double field_of_view = params.field_of_view > 0 ? params.field_of_view : usual_field;
   double metres_per_pixel = 0;
-  if (view_name == "camera") {
-    const Eigen::Vector3d eye = vector_of(params.eye, "eye");
-    const Eigen::Vector3d target = vector_of(params.target, "target");
-    if ((target - eye).norm() < 1e-6) throw Error("'eye' and 'target' are the same place", "look at another place");
-    metres_per_pixel = set_view(drawing.renderer(), drawing.local(eye), drawing.local(target), height);
-  } else if (view_of(view_name) == View::inside) {
+  if (camera == Camera::placed) {
+    const auto [eye, target] = explicit_camera(drawing, params, field_of_view);
+    metres_per_pixel = set_view(drawing.renderer(), eye, target, field_of_view, height);
+  } else if (camera == Camera::inside) {
     const Viewpoint place = inside_view(drawing.surface_points());
-    metres_per_pixel = set_view(drawing.renderer(), place.eye, place.target, height);
+    metres_per_pixel = set_view(drawing.renderer(), place.eye, place.target, field_of_view, height);
   } else {
-    metres_per_pixel =
-        set_view(drawing.renderer(), view_of(view_name), drawing.bounds(), width, height, margin, params.perspective);
+    metres_per_pixel = set_view(drawing.renderer(), view_of(view_name), drawing.bounds(),
+                                {width, height, margin, params.perspective, field_of_view, params.view_width});
+    if (const auto plates = plates_of(overlay, width, height); !plates.empty() && params.view_width == 0)
+      metres_per_pixel /= make_room(drawing.renderer(), drawing.surface_points(), plates, width, height);
   }
   drawing.set_point_size(params.point_size, metres_per_pixel, height);
 }
 
 Picture draw(const Snapshot::In& in, const Params& params, const std::string& view_name, const Context& context) {
   const bool dark = params.background == Snapshot::Background::black;
-  const bool within = view_name == "camera" || view_of(view_name) == View::inside;
-  const bool open = view_name == "isometric" || view_name == "top";
   const int width = static_cast<int>(params.width);
   const int height = static_cast<int>(params.height);
 
   Drawing drawing(in.transform ? *in.transform : Transform{}, dark ? Eigen::Vector3d::Zero() : Eigen::Vector3d::Ones());
   Overlay overlay;
-  add_inputs(drawing, overlay, in, params, open, within, context);
-  if (drawing.empty())
-    throw Error("there is nothing to draw",
-                "wire a cloud, planes, meshes or a mesh that is not empty; `ceilings: true` draws ceilings too");
-  overlay.title = params.title;
+  add_inputs(drawing, overlay, in, params, camera_of(view_name), context);
+  const bool blank = drawing.empty();
+  if (blank && params.empty == Snapshot::Empty::error)
+    throw Error(
+        "there is nothing to draw",
+        "wire a cloud, planes, meshes or a mesh that is not empty; `ceilings: true` draws ceilings too, `empty: "
+        "blank` makes a picture that says so");
+  overlay.title = blank ? "nothing to draw" : params.title;
   overlay.text_size = params.text_size;
   overlay.dark_background = dark;
   if (!params.legend) overlay.legend.clear();
   if (!params.scale_bar) overlay.colours.reset();
-  aim(drawing, params, view_name, overlay.colours.has_value());
+  if (!blank) aim(drawing, params, view_name, overlay);
   auto* camera = drawing.renderer()->GetActiveCamera();
-  if (params.scale_bar && camera->GetParallelProjection() != 0)
+  if (!blank && params.scale_bar && camera->GetParallelProjection() != 0)
     overlay.scale_bar = 2 * camera->GetParallelScale() * width / height;
   vtkNew<vtkRenderer> front;
   front->SetLayer(1);

@@ -21,7 +21,8 @@ namespace atrium::render {
 /// All inputs are optional, at least one must be wired; they are drawn together. Inputs in another frame than z up come
 /// with the transform that brings them there: `transform` applies to all of them. The camera fits the meshes and the
 /// cloud without its outermost 0.1 %; triangles far away from all others do not count if they are few. Of more than 2
-/// million points every second, third, … is drawn. Errors: nothing to draw; an unknown view or colour map; a view that
+/// million points every second, third, … is drawn. A named view that would hide something under the legend or the title
+/// is drawn a little smaller. Errors: nothing to draw; an unknown view or colour map; a view that
 /// is named twice; a file that is no .png; a camera that is not a place and a target; no way to render on this machine.
 struct Snapshot {
   static constexpr std::string_view type = "render.snapshot";
@@ -45,6 +46,8 @@ struct Snapshot {
   };
   enum class ColourBy { automatic, colour, height, label, distance, signed_distance, plain };
   enum class Background { white, black };
+  enum class NearWalls { automatic, drawn, hidden };
+  enum class Empty { error, blank };
   struct Params {
     OutputPath path{"snapshot.png"};
     std::vector<std::string> views{"isometric"};
@@ -57,7 +60,11 @@ struct Snapshot {
     double scale_end = 0;
     double point_size = 0;
     bool perspective = false;
+    double field_of_view = 0;
+    bool fit = false;
+    double view_width = 0;
     bool ceilings = false;
+    NearWalls near_walls = NearWalls::automatic;
     double cut_below_top = 0.4;
     bool edges = true;
     bool legend = true;
@@ -65,6 +72,7 @@ struct Snapshot {
     std::string title;
     double text_size = 0.022;
     Background background = Background::white;
+    Empty empty = Empty::error;
   };
 
   static constexpr auto inputs = std::tuple{
@@ -82,10 +90,10 @@ struct Snapshot {
   static constexpr auto outputs = std::tuple{port<&Out::pictures>("One per view, for a contact sheet.")};
   static constexpr auto params = std::tuple{
       param<&Params::path>("PNG file; with several views the view's name is added before the extension."),
-      param<&Params::views>(
-          "Any of isometric, top, front, back, left, right, inside. Walls that face away are "
-          "left out, so that rooms are seen from outside. Inside stands at eye height (1.6 m above the lowest floor), "
-          "over floor, away from what is in the way, and looks to where most floor is seen."),
+      param<&Params::views>("Any of isometric, top, front, back, left, right, inside. Walls that face away are "
+                            "left out (near_walls), so that rooms are seen from outside. Inside stands at eye height "
+                            "(1.6 m above the lowest floor), "
+                            "over floor, away from what is in the way, and looks to where most floor is seen."),
       param<&Params::eye>(metres, unbounded,
                           "Explicit camera: where it stands, [x, y, z] in the z-up frame, in "
                           "place of `views`; needs `target`."),
@@ -117,8 +125,23 @@ struct Snapshot {
           "Pixels; 0: as large as the points are apart on the surfaces, within 1/480 and 1/120 of the picture's "
           "height."),
       param<&Params::perspective>("Perspective instead of parallel projection."),
+      param<&Params::field_of_view>(degrees, within(0, 170),
+                                    "Of perspective views, from the top to the bottom of the picture. 0: 62 of the "
+                                    "view inside and of an explicit "
+                                    "camera, 30 of the others."),
+      param<&Params::fit>(
+          "Of the explicit camera only the direction counts: it stands where all that is drawn just fits."),
+      param<&Params::view_width>(metres, within(0, 1e6),
+                                 "What a named view shows from left to right, at the middle of what is drawn: pictures "
+                                 "with the same width have "
+                                 "one scale. 0: so that all that is drawn fits."),
       param<&Params::ceilings>(
-          "Draw ceilings too, and every face from both sides: the building as it is seen from outside."),
+          "Draw ceilings too, in the named views with every face from both sides: the building as it is seen from "
+          "outside. The view inside always has them."),
+      param<&Params::near_walls>(
+          {{"automatic", NearWalls::automatic}, {"drawn", NearWalls::drawn}, {"hidden", NearWalls::hidden}},
+          "Whether faces that look away from the camera are drawn. automatic: not in the named views without ceilings, "
+          "so that rooms are looked into; else they are."),
       param<&Params::cut_below_top>(
           metres, within(0, 100),
           "Points nearer than this to the top of the cloud are left out in the isometric and top views, so that rooms "
@@ -130,7 +153,10 @@ struct Snapshot {
       param<&Params::text_size>(
           ratio, within(0.005, 0.1),
           "Height of a line of text as a share of the picture's height: larger for pictures that will be shrunk."),
-      param<&Params::background>({{"white", Background::white}, {"black", Background::black}}, "")};
+      param<&Params::background>({{"white", Background::white}, {"black", Background::black}}, ""),
+      param<&Params::empty>({{"error", Empty::error}, {"blank", Empty::blank}},
+                            "Where there is nothing to draw: an error, or a picture that says so, for sheets of scans "
+                            "of which some have no furniture.")};
 
   static Out run(const In& in, const Params& params, Context& context);
 };

@@ -105,9 +105,12 @@ double line_width(const Snapshot::Params& params) {
   return std::max(1.0, std::round(static_cast<double>(params.height) / 480));
 }
 
-void add_meshes(Drawing& drawing, const Snapshot::In& in, const Snapshot::Params& params, bool within) {
-  const bool ceilings = params.ceilings || within;
-  const Drawing::MeshStyle surfaces{line_width(params), params.edges, !ceilings, ceilings, false};
+void add_meshes(Drawing& drawing, const Snapshot::In& in, const Snapshot::Params& params, Camera camera) {
+  using Near = Snapshot::NearWalls;
+  const bool ceilings = params.ceilings || camera == Camera::inside;
+  const bool hidden =
+      params.near_walls == Near::automatic ? camera <= Camera::level && !ceilings : params.near_walls == Near::hidden;
+  const Drawing::MeshStyle surfaces{line_width(params), params.edges, hidden, ceilings, false};
   if (in.meshes) drawing.add_mesh(triangulated(*in.meshes), surfaces);
   if (in.adjacency) {
     if (!in.meshes) throw Error("an adjacency graph is drawn between meshes", "wire the input 'meshes' too");
@@ -124,10 +127,10 @@ void add_meshes(Drawing& drawing, const Snapshot::In& in, const Snapshot::Params
 
 }  // namespace
 
-void add_inputs(Drawing& drawing, Overlay& overlay, const Snapshot::In& in, const Snapshot::Params& params, bool open,
-                bool within, const Context& context) {
+void add_inputs(Drawing& drawing, Overlay& overlay, const Snapshot::In& in, const Snapshot::Params& params,
+                Camera camera, const Context& context) {
   const Transform to_upright = in.transform ? *in.transform : Transform{};
-  const double cut = open && !params.ceilings ? params.cut_below_top : 0;
+  const double cut = camera == Camera::above && !params.ceilings ? params.cut_below_top : 0;
   if (in.cloud && !in.cloud->points.empty()) {
     const Chosen chosen = evenly_chosen(in.cloud->size(), most_points);
     PointColours points = cloud_colours(in, params, chosen, to_upright, context);
@@ -137,8 +140,8 @@ void add_inputs(Drawing& drawing, Overlay& overlay, const Snapshot::In& in, cons
   }
   if (in.planes && !in.planes->cloud->points.empty()) add_primitives(drawing, *in.planes, cut);
   const auto named = overlay.legend.size();
-  if (in.structure) add_structure(drawing, overlay, *in.structure, params.ceilings || within);
-  add_meshes(drawing, in, params, within);
+  if (in.structure) add_structure(drawing, overlay, *in.structure, params.ceilings || camera == Camera::inside);
+  add_meshes(drawing, in, params, camera);
   const bool by_class = overlay.legend.size() > named;  // structure has named them
   for (const auto surface : {SurfaceClass::wall, SurfaceClass::floor, SurfaceClass::ceiling, SurfaceClass::object})
     if (!by_class && drawing.classes().contains(surface))

@@ -32,7 +32,7 @@ bool is_inhabited(const Storey& storey, const std::vector<PlaneExtent>& walls, c
   if (storey.floors.empty()) return true;
   const double floor = storey.floors.front().height;
   for (const auto& ceiling : storey.ceilings)
-    if (ceiling.top - floor >= limits.min_storey_height) return true;
+    if (limits.height_of(ceiling) - floor >= limits.min_storey_height) return true;
   return std::any_of(walls.begin(), walls.end(), [&](const auto& wall) {
     return wall.top - std::max(wall.bottom, floor) > limits.min_wall_height;
   });
@@ -60,11 +60,11 @@ std::vector<Storey> stack(std::vector<PlaneExtent> planes, const std::vector<Pla
 
 /// Equation 1, with h measured from the main plane opposite, so that it does not depend on where z = 0 lies. Where the
 /// opposite plane is missing, the walls' ends stand for it.
-void choose(Storey& storey, double walls_bottom, double walls_top, const StoreyLimits& limits) {
+void choose(Storey& storey, double walls_bottom, double walls_top, bool is_one_of_several, const StoreyLimits& limits) {
   const PlaneExtent* floor = largest(storey.floors);
   const PlaneExtent* ceiling = largest(storey.ceilings);
   // Too near to each other, or the wrong way round: the lesser is furniture (a wardrobe's top, a shelf's underside).
-  if (floor && ceiling && ceiling->top - floor->height < limits.min_storey_height)
+  if (floor && ceiling && limits.height_of(*ceiling) - floor->height < limits.min_storey_height)
     (floor->size() < ceiling->size() ? floor : ceiling) = nullptr;
   const double bottom = floor ? floor->height : walls_bottom;
   const double top = ceiling ? ceiling->height : walls_top;
@@ -72,7 +72,9 @@ void choose(Storey& storey, double walls_bottom, double walls_top, const StoreyL
   const double deepest = floor ? top - floor->height : 0;
   if (!ceiling) storey.ceilings.clear();
   if (!floor) storey.floors.clear();
-  std::erase_if(storey.ceilings, [&](const auto& p) { return p.top - bottom < limits.ceiling_share * highest; });
+  if (is_one_of_several && limits.share_alone) return;
+  std::erase_if(storey.ceilings,
+                [&](const auto& p) { return limits.height_of(p) - bottom < limits.ceiling_share * highest; });
   std::erase_if(storey.floors, [&](const auto& p) { return top - p.height < limits.floor_share * deepest; });
 }
 
@@ -96,7 +98,7 @@ std::vector<Storey> find_storeys(const std::vector<PlaneExtent>& horizontal, con
     bottom = std::min(bottom, wall.bottom);
     top = std::max(top, wall.top);
   }
-  for (auto& storey : storeys) choose(storey, bottom, top, limits);
+  for (auto& storey : storeys) choose(storey, bottom, top, storeys.size() > 1, limits);
   return storeys;
 }
 

@@ -8,6 +8,9 @@ namespace atrium::segment {
 /// The limits of segment.structure that concern horizontal planes; its parameters describe them.
 struct StoreyLimits {
   double ceiling_share, floor_share, storey_share, min_storey_height, min_wall_height;
+  bool share_alone = false;  ///< of several storeys: storey_share decides without equation 1
+  bool by_mean = false;      ///< a ceiling's height is its mean, not its top
+  double height_of(const PlaneExtent& ceiling) const { return by_mean ? ceiling.height : ceiling.top; }
 };
 
 /// One storey: its floors and ceilings, and the heights between which walls are its own.

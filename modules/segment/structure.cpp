@@ -106,14 +106,13 @@ void check(const Sorted& sorted, const std::vector<Storey>& storeys, const Struc
             "a floor's or ceiling's normal is less than {} deg from the vertical; check that z is up, or change "
             "horizontal_angle",
             params.horizontal_angle));
-  constexpr double meeting = 0.5;  // metres: the paper's th_sep
-  const double contact = wall_contact(sorted.walls, storeys, meeting);
+  const double contact = wall_contact(sorted.walls, storeys, params.contact_distance);
   if (contact < params.min_wall_contact)
     throw Error(
         fmt::format("no room is in it: only {:.0f} % of the walls' length stands on a floor or reaches a ceiling",
                     100 * contact),
-        "what was found are furniture and pieces of walls; scan the floor or the ceiling too, or lower "
-        "min_wall_contact");
+        "what was found are furniture and pieces of walls; scan the floor or the ceiling too, lower min_wall_contact "
+        "or raise contact_distance");
   if (!floor) context.warn("no floor was found");
   if (!ceiling) context.warn("no ceiling was found");
 }
@@ -128,9 +127,10 @@ Structure::Out Structure::run(const In& in, const Params& params, Context& conte
         "keep wall_angle above both");
   Sorted sorted = sort(measure(*in.planes, context), params);
   if (params.sides == Sides::position) face_by_position(sorted.horizontal);
-  const std::vector<Storey> storeys = find_storeys(sorted.horizontal, sorted.walls,
-                                                   {params.ceiling_share, params.floor_share, params.storey_share,
-                                                    params.min_storey_height, params.min_wall_height});
+  const std::vector<Storey> storeys = find_storeys(
+      sorted.horizontal, sorted.walls,
+      {params.ceiling_share, params.floor_share, params.storey_share, params.min_storey_height, params.min_wall_height,
+       params.storey_rule == StoreyRule::share, params.ceiling_height == CeilingHeight::mean});
   check(sorted, storeys, params, context);
   Out out;
   out.structure = classify(in.planes, sorted, storeys);

@@ -8,6 +8,13 @@ namespace atrium::segment {
 /// How up-facing and down-facing planes are told apart.
 enum class Sides { normals, position };
 
+/// What decides over floors and ceilings where there are several storeys: ten percent and equation 1, or ten percent
+/// alone.
+enum class StoreyRule { both, share };
+
+/// Which height of a ceiling equation 1 compares with the main ceiling's mean height.
+enum class CeilingHeight { top, mean };
+
 /// Tells walls, floors and ceilings from everything else (paper, "Segmentation").
 ///
 /// - Horizontal planes are those whose normal is within `horizontal_angle` of the vertical. Up-facing ones can be
@@ -17,17 +24,19 @@ enum class Sides { normals, position };
 ///   least ceiling_share of the main ceiling's; a floor's depth, measured downwards from the main ceiling, is at
 ///   least floor_share of the main floor's. So moving the scene changes nothing. If one of the two is missing, the
 ///   ends of the walls stand for it. If both are less than min_storey_height apart, the smaller one is furniture.
+///   A ceiling counts by its highest point (a slanted one reaches as high as a level one), or by its mean.
 /// - Several storeys: among the planes with at least storey_share of the points of the largest horizontal plane, a
 ///   floor above a ceiling begins a new storey, if there is room to stand below the ceiling and a ceiling or wall
-///   above the floor. Then only those planes count, and equation 1 holds within each storey.
+///   above the floor. Then only those planes count, and equation 1 holds within each storey; or, with storey_rule:
+///   share, all of them are floors and ceilings.
 /// - Walls: the normal is further than wall_angle from the vertical, and the points reach over more than
 ///   min_wall_height. A wall belongs to the storey that it overlaps most.
 /// - Planes between the two angles are lost, and counted in the report. Raise slanted_ceiling_angle for attics
 ///   (down-facing planes that reach as high as ceilings), lower wall_angle for slanted walls.
 ///
 /// - There is a room if walls stand on floors or reach up to ceilings: at least min_wall_contact of the walls' length
-///   has a floor within 0.5 m (the paper's th_sep) of its foot or a ceiling within 0.5 m of its head, by bounding
-///   rectangles. Measured on real scans: 0.48 to 1 in rooms, however partly seen; 0 in furniture without its room.
+///   has a floor within contact_distance of its foot or a ceiling as near to its head, by bounding rectangles. Measured
+///   on real scans with 0.5 m: 0.48 to 1 in rooms, however partly seen; 0 in furniture without its room.
 ///
 /// Errors: no wall; neither floor nor ceiling; walls that meet neither; overlapping angles. Only one of floor and
 /// ceiling: a warning.
@@ -52,6 +61,9 @@ struct Structure {
     double storey_share = 0.10;
     double min_storey_height = 1.5;
     double min_wall_contact = 0.2;
+    double contact_distance = 0.5;
+    StoreyRule storey_rule = StoreyRule::both;
+    CeilingHeight ceiling_height = CeilingHeight::top;
     Sides sides = Sides::normals;
   };
   static constexpr auto inputs = std::tuple{port<&In::planes>("Primitives, z up.")};
@@ -92,6 +104,17 @@ struct Structure {
           ratio, within(0, 1),
           "Least share of the walls' length that stands on a floor or reaches a ceiling, for there to be a room; not "
           "in the paper."),
+      param<&Params::contact_distance>(
+          metres, within(0, 10),
+          "How near a floor is to a wall's foot, or a ceiling to its head, for min_wall_contact; the paper's th_sep."),
+      param<&Params::storey_rule>(
+          {{"both", StoreyRule::both}, {"share", StoreyRule::share}},
+          "In scenes of several storeys: storey_share and then ceiling_share and floor_share within each storey, or "
+          "storey_share alone (the paper has the one after the other and does not say whether both hold)."),
+      param<&Params::ceiling_height>({{"top", CeilingHeight::top}, {"mean", CeilingHeight::mean}},
+                                     "The height of a ceiling that ceiling_share and min_storey_height judge: its "
+                                     "highest point, or the mean of its "
+                                     "points (the paper says height). The main ceiling's is its mean."),
       param<&Params::sides>(
           {{"normals", Sides::normals}, {"position", Sides::position}},
           "normals: the planes' normals tell floors (up) from ceilings (down); position: the upper half of the "

@@ -78,6 +78,19 @@ TEST(Paper, NodesAreSwappedAndConstantsChangedFromTheCommandLine) {
   EXPECT_FALSE(fs::exists(scratch / "wrong"));
 }
 
+TEST(Paper, ThetaAndTheNumberOfPrimitivesAreVariables) {
+  const TemporaryFolder scratch;
+  const auto scan = simulate(scratch, {"points=200000", "scene.type=synth.attic"});
+  const auto found = [&](const std::string& setting, const std::string& name) {
+    const fs::path out = scratch / setting;
+    const auto run = run_pipeline_file("paper.yaml", {scan, "objects.type=object.none", setting}, out);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return metric(out / "metrics.json", name);
+  };
+  EXPECT_GT(found("theta=60deg", "structure.ceilings"), found("theta=20deg", "structure.ceilings"));
+  EXPECT_EQ(found("primitives=12", "structure.planes"), 12);
+}
+
 TEST(Paper, GeoreferencedScanComesBackWhereItWas) {
   const TemporaryFolder scratch;
   const auto there = simulate(scratch, {"points=200000", "offset=[500000, 5400000, 300]"});

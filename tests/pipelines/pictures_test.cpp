@@ -50,6 +50,13 @@ TEST_F(Pictures, AreOfTheMethodThatTakesItsPlace) {
   EXPECT_GT(size_of_png(folder / "out/stages.png").first, 4 * 400);
 }
 
+TEST_F(Pictures, AMethodWithoutObjectsLeavesTheirPictureBlank) {
+  const auto result = run_pipeline_file("stages.yaml", {scan, "model.pipeline=pipelines/atrium.yaml"}, folder / "out");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GT(size_of_png(folder / "out/stages.png").first, 4 * 400);
+  EXPECT_EQ(size_of_png(folder / "out/f_objects.png"), std::pair(840, 630));
+}
+
 TEST_F(Pictures, AColouredScanIsSeenFromWithinAndFromAbove) {
   const auto result =
       run_pipeline_file("textured.yaml", {scan, "model/objects.depth=6", "views.width=320"}, folder / "out");

@@ -97,7 +97,7 @@ TEST_F(Diff, NamesParametersMetricsFilesAndTheFirstNode) {
   bool rms = false;
   for (const auto& metric : found.at("metrics")) {
     EXPECT_TRUE(metric.at("name").get<std::string>().starts_with("distance.")) << metric;
-    if (metric.at("name") != "distance.distance.cloud_to_mesh.rms") continue;
+    if (metric.at("name") != "distance.cloud_to_mesh.rms") continue;
     rms = true;
     EXPECT_EQ(metric.at("unit"), "m");
     EXPECT_DOUBLE_EQ(metric.at("change").get<double>(), metric.at("b").get<double>() - metric.at("a").get<double>());

@@ -163,6 +163,10 @@ outputs: {faces: faces.metrics}
   EXPECT_EQ(data.at("variants").size(), 1U);
   EXPECT_EQ(data.at("variants")[0].at("models")[0][0], "room.ply");
   EXPECT_GT(data.at("metrics").size(), 3U);
+  for (const auto& metric : data.at("metrics")) {
+    const std::string name = metric.at("name");
+    EXPECT_TRUE(name.starts_with("faces.") && !name.starts_with("faces.faces.")) << name;
+  }
   expect_works_in_browser(folder / "run/report.html", true);
 }
 

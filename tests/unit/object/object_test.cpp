@@ -7,6 +7,7 @@
 #include "modules/object/greedy.hpp"
 #include "modules/object/none.hpp"
 #include "modules/object/poisson.hpp"
+#include "modules/object/surface.hpp"
 #include "tests/support/sphere.hpp"
 
 namespace atrium::object::object_test {
@@ -64,6 +65,51 @@ TEST(ObjectPoisson, TakesEveryDepth) {
   for (const std::int64_t depth : {3, 4, 5, 9})
     EXPECT_FALSE(mesh_of<Poisson>(sphere(2000), {depth, 1.5, 4, 0.5}).triangles.empty());
 }
+
+/// A level square of points, `side` metres long, and a box of the same spacing far from it.
+Cloud sheets_apart(double side, double apart, double spacing) {
+  Cloud cloud;
+  const int n = static_cast<int>(std::lround(side / spacing));
+  for (const double x : {0.0, apart})
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j)
+        cloud.points.emplace_back(static_cast<float>(x + spacing * i), static_cast<float>(spacing * j), 0.0F);
+  cloud.normals.assign(cloud.points.size(), Vector3f::UnitZ());
+  return cloud;
+}
+
+TEST(ObjectPoisson, SpacingIsThatOfTheGrid) {
+  Context context;
+  EXPECT_NEAR(surface_spacing(sheets_apart(1, 5, 0.02), context), 0.02, 0.003);
+  EXPECT_NEAR(surface_spacing(sheets_apart(4, 5, 0.1), context), 0.1, 0.015);
+  Cloud copies;
+  copies.points.assign(100, Vector3f::Zero());
+  EXPECT_EQ(surface_spacing(copies, context), 0);
+}
+
+TEST(ObjectPoisson, DepthFollowsTheExtentSoThatFurnitureStays) {
+  for (const double apart : {10.0, 60.0}) {  // cells of 4.3 and 25.8 cm at depth 8
+    const Cloud cloud = sheets_apart(1, apart, 0.02);
+    const double by_spacing = area_of(mesh_of<Poisson>(cloud, {0, 1.5, 4, 0.06}));
+    const double fixed = area_of(mesh_of<Poisson>(cloud, {8, 1.5, 4, 0.06}));
+    EXPECT_GT(by_spacing, 1.9) << apart;
+    if (apart < 20)
+      EXPECT_EQ(by_spacing, fixed);
+    else
+      EXPECT_LT(fixed, by_spacing - 0.2);
+  }
+}
+
+TEST(ObjectPoisson, TrimOfThreeSpacings) {
+  const Cloud open = sphere(8000, true);  // a spacing of 1.8 cm
+  Context context;
+  const double spacing = surface_spacing(open, context);
+  EXPECT_NEAR(spacing, std::sqrt(std::numbers::pi / 8000), 0.004);
+  EXPECT_EQ(area_of(mesh_of<Poisson>(open, {6, 1.5, 4, 0})), area_of(mesh_of<Poisson>(open, {6, 1.5, 4, 3 * spacing})));
+  EXPECT_LT(area_of(mesh_of<Poisson>(open, {6, 1.5, 4, 0})), area_of(mesh_of<Poisson>(open, {6, 1.5, 4, 0.2})));
+}
+
+TEST(ObjectPoisson, RefusesATooCoarseDepth) { EXPECT_THROW(mesh_of<Poisson>(sphere(100), {2, 1.5, 4, 0.06}), Error); }
 
 TEST(ObjectGreedy, TriangulatesASphere) {
   const Mesh mesh = mesh_of<Greedy>(sphere(3000));

@@ -79,6 +79,26 @@ class PclRegistration : public testing::Test {};
 using Nodes = testing::Types<Gicp, Ndt>;
 TYPED_TEST_SUITE(PclRegistration, Nodes);
 
+/// What a run says.
+class Listener : public ContextHost {
+ public:
+  void log(Level level, std::string_view text) override {
+    if (level == Level::warning) warnings += std::string(text) + "\n";
+  }
+  std::string warnings;
+};
+
+TYPED_TEST(PclRegistration, SaysWhenItEndedAtItsLimit) {
+  typename TypeParam::Params params;
+  for (const std::int64_t limit : {2, 100}) {
+    const auto host = std::make_shared<Listener>();
+    Context context(1, host);
+    params.iterations = limit;
+    TypeParam::run({scans()}, params, context);
+    EXPECT_EQ(host->warnings.find("did not converge") != std::string::npos, limit == 2) << limit << host->warnings;
+  }
+}
+
 TYPED_TEST(PclRegistration, BadInputs) {
   const auto one = input(scan(1, first));
   EXPECT_EQ(run<TypeParam>({one}).cloud.size(), one->size());

@@ -105,6 +105,39 @@ TEST(VertexTranslation, SlantedWallsMeetOnATiltedLineAndStayPlanar) {
   EXPECT_EQ(on_both, 2);
 }
 
+TEST(VertexTranslation, AnEdgeMovesAsAWholeVerticesEachOnTheirOwn) {
+  test::Rooms rooms;
+  rooms.wall(0, 0, 4, 0);  // its end is 0.1 m from the slanted wall at the floor, 0.725 m at the ceiling
+  rooms.add({4.1, 0.1, 0}, {0, 3, 0}, {0.625, 0, 2.5}, {-2.5, 0, 0.625});
+  const auto meshes = wall_meshes(rooms);
+  Context context;
+  const auto graph = input(estimate::Adjacency::run({input(meshes)}, {0.5}, context).adjacency);
+  const auto on_the_line = [&](Moves moves, double limit) {
+    const auto out = VertexTranslation::run({input(meshes), graph}, {limit, 0.001, moves});
+    expect_planar(out.meshes);
+    int found = 0;
+    for (const auto& c : out.meshes.meshes[0].corners)
+      if (std::abs(meshes.meshes[1].plane.signed_distance(c)) < 1e-6) ++found;
+    return found;
+  };
+  EXPECT_EQ(on_the_line(Moves::edge, 0.5), 0);
+  EXPECT_EQ(on_the_line(Moves::vertices, 0.5), 1);
+  EXPECT_EQ(on_the_line(Moves::nearest, 0.5), 1);
+  EXPECT_EQ(on_the_line(Moves::edge, 0.8), 2);
+  EXPECT_EQ(on_the_line(Moves::vertices, 0.8), 2);
+  EXPECT_EQ(on_the_line(Moves::nearest, 0.8), 1);
+  EXPECT_EQ(on_the_line(Moves::vertices, 0.05), 0);
+}
+
+TEST(VertexTranslation, UprightWallsCloseInTheSameWayByEdgesAndByVertices) {
+  const auto meshes = wall_meshes(test::Rooms().walls(test::l_outline(), 0.2));
+  Context context;
+  const auto graph = input(estimate::Adjacency::run({input(meshes)}, {0.5}, context).adjacency);
+  const auto moved = [&](Moves moves) { return VertexTranslation::run({input(meshes), graph}, {0.5, 0.001, moves}); };
+  EXPECT_EQ(content_hash(moved(Moves::edge).meshes), content_hash(moved(Moves::vertices).meshes));
+  EXPECT_EQ(moved(Moves::nearest).moved, 12);  // one vertex at each end of six walls: corners stay open
+}
+
 TEST(VertexTranslation, NoMeshCollapsesAmongManyWalls) {
   Random random(17);
   for (int round = 0; round < 40; ++round) {

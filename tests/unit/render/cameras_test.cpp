@@ -6,6 +6,7 @@
 #include "modules/render/inside_view.hpp"
 #include "modules/render/point_spacing.hpp"
 #include "modules/render/snapshot.hpp"
+#include "modules/types/palette.hpp"
 #include "tests/unit/render/pictures.hpp"
 
 namespace atrium::render::cameras_test {
@@ -113,6 +114,135 @@ TEST(Snapshot, OnePointIsAPictureFromEverySide) {
   const auto reference = input(square(cloud.origin));
   EXPECT_EQ(Snapshot::run({.cloud = input(cloud), .reference = reference}, params, context).pictures.pictures.size(),
             1U);
+}
+
+/// Pictures of a room of 4 × 3 × 2.5 m from a place outside, high in the south-west.
+Picture room_from(const Snapshot::Params& params) {
+  Context context(1, std::make_shared<Folder>());
+  return Snapshot::run({.meshes = input(room({100, 200, 0}))}, params, context).pictures.pictures.at(0);
+}
+
+Snapshot::Params from_outside() {
+  Snapshot::Params params;
+  params.width = 400;
+  params.height = 300;
+  params.scale_bar = params.legend = params.edges = false;
+  params.eye = {96, 194, 9};
+  params.target = {102, 201.5, 1};
+  return params;
+}
+
+double share_of_class(const Picture& picture, SurfaceClass surface) {
+  double share = 0;
+  const auto pixels = static_cast<double>(picture.pixels.size() / 3);
+  for (std::size_t i = 0; i < picture.pixels.size(); i += 3)
+    share += same_hue({picture.pixels[i], picture.pixels[i + 1], picture.pixels[i + 2]}, class_colour(surface)) ? 1 : 0;
+  return share / pixels;
+}
+
+TEST(Snapshot, AnExplicitCameraHasNoCeilingsUnlessTheyAreWanted) {
+  Snapshot::Params params = from_outside();
+  EXPECT_EQ(share_of_class(room_from(params), SurfaceClass::ceiling), 0);
+  EXPECT_GT(share_of_class(room_from(params), SurfaceClass::floor), 0.001);
+  params.ceilings = true;
+  EXPECT_GT(share_of_class(room_from(params), SurfaceClass::ceiling), 0.01);
+}
+
+TEST(Snapshot, NearWallsAreHiddenOnRequest) {
+  Snapshot::Params params = from_outside();
+  const double behind_walls = share_of_class(room_from(params), SurfaceClass::floor);
+  params.near_walls = Snapshot::NearWalls::hidden;
+  const double seen = share_of_class(room_from(params), SurfaceClass::floor);
+  EXPECT_GT(seen, 1.5 * behind_walls);
+  params.eye = params.target = {};  // a named view hides them, unless they are wanted
+  const double named = share_of_class(room_from(params), SurfaceClass::floor);
+  params.near_walls = Snapshot::NearWalls::automatic;
+  EXPECT_EQ(share_of_class(room_from(params), SurfaceClass::floor), named);
+  params.near_walls = Snapshot::NearWalls::drawn;
+  EXPECT_LT(share_of_class(room_from(params), SurfaceClass::floor), 0.8 * named);
+}
+
+TEST(Snapshot, ANarrowerFieldOfViewShowsThingsLarger) {
+  Snapshot::Params params = from_outside();
+  const double usual = 1 - share_of(room_from(params), {255, 255, 255});
+  params.field_of_view = 62;
+  EXPECT_EQ(1 - share_of(room_from(params), {255, 255, 255}), usual);
+  params.field_of_view = 40;
+  const double ratio = std::pow(std::tan(31 * M_PI / 180) / std::tan(20 * M_PI / 180), 2);
+  EXPECT_NEAR((1 - share_of(room_from(params), {255, 255, 255})) / usual, ratio, 0.1 * ratio);
+}
+
+TEST(Snapshot, FitMovesTheCameraUntilAllIsSeen) {
+  Snapshot::Params params = from_outside();
+  params.fit = true;
+  const Picture fitted = room_from(params);
+  const auto is_white = [&](int x, int y) {
+    const auto* p = &fitted.pixels[3 * (static_cast<std::size_t>(y) * 400 + static_cast<std::size_t>(x))];
+    return p[0] == 255 && p[1] == 255 && p[2] == 255;
+  };
+  for (int x = 0; x < 400; ++x) EXPECT_TRUE(is_white(x, 0) && is_white(x, 299)) << x;
+  for (int y = 0; y < 300; ++y) EXPECT_TRUE(is_white(0, y) && is_white(399, y)) << y;
+  EXPECT_LT(share_of(fitted, {255, 255, 255}), 0.75);
+  params.eye = {-5898, -7298.5, 8001};  // the same direction, a thousand times as far
+  EXPECT_EQ(room_from(params).pixels, fitted.pixels);
+}
+
+TEST(Snapshot, PicturesOfOneViewWidthHaveOneScale) {
+  Context context(1, std::make_shared<Folder>());
+  Snapshot::Params params;
+  params.width = params.height = 300;
+  params.views = {"top"};
+  params.scale_bar = params.legend = params.edges = false;
+  params.view_width = 10;
+  const auto covered = [&](double side) {
+    Mesh mesh = square({0, 0, 0});
+    for (auto& v : mesh.vertices) v *= side / 4;
+    return 1 - share_of(Snapshot::run({.mesh = input(mesh)}, params, context).pictures.pictures[0], {255, 255, 255});
+  };
+  EXPECT_NEAR(covered(4), 0.16, 0.01);
+  EXPECT_NEAR(covered(2), 0.04, 0.005);
+  params.perspective = true;
+  EXPECT_NEAR(covered(4), 0.16, 0.01);
+  params.view_width = 0;
+  EXPECT_GT(covered(2), 0.3);
+}
+
+TEST(Snapshot, TheLegendHidesNothing) {
+  Snapshot::Params params;
+  params.width = 420;
+  params.height = 315;
+  params.ceilings = true;
+  params.scale_bar = params.edges = false;
+  params.text_size = 0.07;
+  params.views = {"front"};
+  const auto walls_under = [&](const Picture& picture) {
+    int found = 0;  // in what the legend covers but for its swatches: 0.5 to 7.2 lines across, 0.5 to 5.7 up
+    for (int y = 315 - 125; y < 315 - 11; ++y)
+      for (int x = 45; x < 158; ++x) {
+        const auto* p = &picture.pixels[3 * (static_cast<std::size_t>(y) * 420 + static_cast<std::size_t>(x))];
+        if (p[2] > p[0] + 30) ++found;  // blue, also through the plate
+      }
+    return found;
+  };
+  const Picture with = room_from(params);
+  EXPECT_EQ(walls_under(with), 0);
+  params.legend = false;
+  const Picture without = room_from(params);
+  EXPECT_GT(walls_under(without), 1000);
+  EXPECT_GT(share_of(with, {255, 255, 255}), share_of(without, {255, 255, 255}));
+}
+
+TEST(Snapshot, NothingToDrawIsAnErrorOrABlankPicture) {
+  Context context(1, std::make_shared<Folder>());
+  Snapshot::Params params;
+  params.width = 320;
+  params.height = 240;
+  EXPECT_THROW(Snapshot::run({.objects = input(Mesh{})}, params, context), Error);
+  params.empty = Snapshot::Empty::blank;
+  const Picture picture = Snapshot::run({.objects = input(Mesh{})}, params, context).pictures.pictures.at(0);
+  EXPECT_EQ(picture.width, 320);
+  EXPECT_GT(share_of(picture, {255, 255, 255}), 0.9);
+  EXPECT_LT(share_of(picture, {255, 255, 255}), 1) << "it says so";
 }
 
 TEST(Snapshot, ACameraThatIsNoPlaceIsAnError) {

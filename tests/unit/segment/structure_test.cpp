@@ -198,6 +198,50 @@ TEST(SegmentStructure, FurnitureWithoutItsRoomIsNoRoom) {
   EXPECT_EQ(report(segmented(rooms.planes()), "floors"), 1);
 }
 
+TEST(SegmentStructure, ContactDistanceSaysHowNearAFloorIsToAWallsFoot) {
+  test::Rooms rooms;
+  rooms.floor(0, 0, 4, 3).walls({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, 0, 0.6, 2.5);  // feet 60 cm above the floor
+  EXPECT_NE(error_of(rooms.planes()).find("only 0 % of the walls' length"), std::string::npos);
+  Structure::Params params;
+  params.contact_distance = 0.65;
+  EXPECT_EQ(report(segmented(rooms.planes(), params), "walls"), 4);
+  params.contact_distance = 0.55;
+  EXPECT_NE(error_of(rooms.planes(), params), "");
+}
+
+TEST(SegmentStructure, TenPercentAloneMakesALargeTableAFloor) {
+  test::Rooms rooms = house();
+  rooms.floor(1, 1, 3, 2, 0.75).ceiling(4, 1, 5, 2, 4.0);  // a table of 861 points, a lamp of 441 of 9801
+  Structure::Params params;
+  const auto both = segmented(rooms.unsorted(), params).structure.classes;
+  EXPECT_EQ(both[13], SurfaceClass::object);
+  params.storey_rule = StoreyRule::share;
+  EXPECT_EQ(segmented(rooms.unsorted(), params).structure.classes, both);  // less than ten percent, both of them
+  params.storey_share = 0.08;
+  auto expected = both;
+  expected[13] = SurfaceClass::floor;
+  EXPECT_EQ(segmented(rooms.unsorted(), params).structure.classes, expected);
+  params.storey_rule = StoreyRule::both;
+  EXPECT_EQ(segmented(rooms.unsorted(), params).structure.classes, both);
+  // One storey: equation 1 decides whatever the rule is.
+  test::Rooms room = test::box_room();
+  room.floor(1, 1, 3, 2, 0.75);
+  params.storey_rule = StoreyRule::share;
+  EXPECT_EQ(segmented(room.unsorted(), params).structure.classes[6], SurfaceClass::object);
+}
+
+TEST(SegmentStructure, ASlopesTopReachesTheMainCeilingItsMeanDoesNot) {
+  test::Rooms rooms = test::box_room();
+  rooms.add({0, 0, 0.8}, {0, 3, 0}, {1, 0, 1.7}, {1.7, 0, -1});  // from 0.8 to 2.5 m, on average 1.65: 0.66 of 2.5 m
+  Structure::Params params;
+  params.slanted_ceiling_angle = 65;
+  EXPECT_EQ(segmented(rooms.unsorted(), params).structure.classes[6], SurfaceClass::ceiling);
+  params.ceiling_height = CeilingHeight::mean;
+  EXPECT_EQ(segmented(rooms.unsorted(), params).structure.classes[6], SurfaceClass::object);
+  params.ceiling_share = 0.65;
+  EXPECT_EQ(segmented(rooms.unsorted(), params).structure.classes[6], SurfaceClass::ceiling);
+}
+
 TEST(SegmentStructure, PositionStandsInForNormals) {
   PlanePrimitives planes = test::box_room().unsorted();
   for (auto& p : planes.primitives) p.plane = {-p.plane.normal, -p.plane.offset};
