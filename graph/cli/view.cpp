@@ -27,15 +27,21 @@ int view(const ViewArguments& options) {
                                                 static_cast<std::size_t>(options.max_megabytes * 1e6));
   for (const auto& part : view.parts)
     if (part.path.empty()) say("note: without {}: {}\n", part.part, part.lacking);
+  for (const auto& part : view.parts)
+    if (!part.note.empty()) say("note: {}\n", part.note);
   if (options.json) {
     nlohmann::ordered_json parts = nlohmann::ordered_json::object();
     nlohmann::ordered_json lacking = nlohmann::ordered_json::object();
+    nlohmann::ordered_json notes = nlohmann::ordered_json::array();
+    for (const auto& part : view.parts)
+      if (!part.note.empty()) notes.push_back(part.note);
     for (const auto& part : view.parts)
       (part.path.empty() ? lacking : parts)[part.part] = part.path.empty() ? part.lacking : part.path;
     const nlohmann::ordered_json json{{"file", fs::absolute(target).lexically_normal().string()},
                                       {"bytes", bytes},
                                       {"parts", std::move(parts)},
-                                      {"lacking", std::move(lacking)}};
+                                      {"lacking", std::move(lacking)},
+                                      {"notes", std::move(notes)}};
     fmt::print("{}\n", json_text(json, 2));
   } else {
     fmt::print("{}: {} of the run, {:.1f} MB\n", target.string(), counted(view.parts.size() - view.lacking, "file"),
@@ -55,7 +61,7 @@ void add_view(CLI::App& app, int& exit_code) {
       ->type_name("");
   verb->add_option("-o,--output", options->file, "the file to write (default: RUN/view.html)")->type_name("FILE");
   verb->add_option("--max-size", options->max_megabytes,
-                   "megabytes of the page at most; what has no room is left out, the scan's points first")
+                   "megabytes of the page at most; the scan's points are thinned to it, what has no room is left out")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1e6));
   verb->add_flag("--json", options->json, "what was written as JSON on stdout");

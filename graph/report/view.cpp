@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "graph/api/files.hpp"
@@ -10,6 +11,7 @@
 #include "graph/pipeline/pipeline.hpp"
 #include "graph/report/base64.hpp"
 #include "graph/report/page.hpp"
+#include "graph/report/thinned_points.hpp"
 
 namespace atrium::report {
 namespace {
@@ -44,9 +46,10 @@ class Packer {
     ViewPart part;
     part.part = wish.part;
     for (const auto& path : candidates(wish)) {
-      const std::string problem = add(path);
+      const std::string problem = add(path, part.note);
       if (problem.empty()) {
         part.path = path;
+        part.node = writer_of(path);
         part.lacking.clear();
         part.file = view_.files.size() - 1;
         return part;
@@ -78,8 +81,15 @@ class Packer {
     });
   }
 
+  std::string writer_of(const std::string& path) const {
+    for (const auto& node : run_.nodes)
+      for (const auto& file : node.artefacts)
+        if (fs::path(file.path).lexically_normal() == fs::path(path).lexically_normal()) return node.node;
+    return {};
+  }
+
   /// Why the file is not in the page; empty if it is.
-  std::string add(const std::string& path) {
+  std::string add(const std::string& path, std::string& note) {
     const fs::path file = run_.folder / path;
     std::error_code code;
     const auto bytes = fs::file_size(file, code);
@@ -89,17 +99,43 @@ class Packer {
                          size / 1e6, static_cast<double>(room_) / 1e6);
     };
     constexpr std::uint64_t best_deflation = 32;
-    if (bytes / best_deflation > room_) return too_large(static_cast<double>(bytes));
+    const bool points = file.extension() == ".glb";
+    if (!points && bytes / best_deflation > room_) return too_large(static_cast<double>(bytes));
     Attachment attachment{media_type_in_view(path), true, {}};
+    std::size_t whole = 0;
     try {
-      attachment.base64 = to_base64(deflated(read_text(file)));
+      const std::string text = read_text(file);
+      attachment.base64 = to_base64(deflated(text));
+      whole = attachment.base64.size();
+      if (points && whole > room_) thin(text, path, attachment.base64, note);
     } catch (const std::exception& error) {
       return fmt::format("{} cannot be read: {}", path, error.what());
     }
-    if (attachment.base64.size() > room_) return too_large(static_cast<double>(attachment.base64.size()));
+    if (attachment.base64.size() > room_) return too_large(static_cast<double>(whole));
     room_ -= attachment.base64.size();
     view_.files.push_back(std::move(attachment));
     return {};
+  }
+
+  /// Leaves fewer points, until what stands in the page has room; nothing changes where that cannot be.
+  void thin(const std::string& glb, const std::string& path, std::string& base64, std::string& note) const {
+    constexpr std::size_t fewest = 1000;
+    constexpr int most_tries = 8;
+    constexpr double slack = 0.99;
+    double share = 1;
+    std::size_t size = base64.size();
+    for (int i = 0; i < most_tries; ++i) {
+      share *= slack * static_cast<double>(room_) / static_cast<double>(size);
+      const auto thinned = thinned_points(glb, share);
+      if (!thinned || thinned->points < fewest) return;
+      std::string text = to_base64(deflated(thinned->glb));
+      size = text.size();
+      if (size > room_) continue;
+      base64 = std::move(text);
+      note = fmt::format("{}: {} of its {} points are in the page, as many as have room: --max-size gives more", path,
+                         thinned->points, thinned->of);
+      return;
+    }
   }
 
   std::string nobody_wrote(const ViewWish& wish) const {
@@ -128,6 +164,8 @@ Json view_data(const RunRecord& run, const ViewWishes& wishes, const View& view)
       entry["lacking"] = part.lacking;
     else
       entry.update({{"path", part.path}, {"file", part.file}});
+    if (!part.node.empty()) entry["node"] = part.node;
+    if (!part.note.empty()) entry["note"] = part.note;
     parts.push_back(std::move(entry));
   }
   Json files = Json::array();
@@ -151,6 +189,21 @@ Json view_data(const RunRecord& run, const ViewWishes& wishes, const View& view)
             {"parts", std::move(parts)},
             {"files", std::move(files)}};
   return json;
+}
+
+/// The view that has no file.
+View nothing_of(const ViewWishes& wishes) {
+  View view;
+  for (const auto& wish : wishes.parts) view.parts.push_back({wish.part, {}, {}, {}, {}, 0});
+  return view;
+}
+
+/// What the page takes but for the contents of files, at most.
+std::size_t size_without(const std::string& page, const RunRecord& run, const std::string& data,
+                         const ViewWishes& wishes) {
+  constexpr std::size_t element = 80;  // around a file's contents, or the data
+  constexpr std::size_t escaped = 5;   // of a character of the title
+  return page.size() + data.size() + element * (wishes.parts.size() + 1) + escaped * title_of(run).size();
 }
 
 }  // namespace
@@ -187,10 +240,23 @@ std::pair<View, std::size_t> write_view(const fs::path& target, const RunRecord&
                                         std::size_t max_bytes) {
   const std::string text = read_page(page);
   const ViewWishes wishes = read_wishes(text, page.string());
-  constexpr std::size_t around = 20'000;  // the data, and the files' elements
-  View view = pack_view(run, wishes, max_bytes > text.size() + around ? max_bytes - text.size() - around : 0);
-  const std::size_t size =
-      write_filled_page(target, title_of(run), embedded(view_data(run, wishes, view)), view.files, page, text);
+  // What the data take is known when the files are chosen: where it is more than was kept for it, they are chosen anew.
+  View view;
+  std::string data;
+  std::size_t besides = size_without(text, run, embedded(view_data(run, wishes, nothing_of(wishes))), wishes);
+  if (besides > max_bytes)
+    throw Error(fmt::format("the page takes {:.2f} MB without any file of the run, --max-size allows {:.2f} MB",
+                            static_cast<double>(besides) / 1e6, static_cast<double>(max_bytes) / 1e6),
+                fmt::format("--max-size {:.1f} or more: what has no room is left out",
+                            std::ceil(static_cast<double>(besides) / 1e5) / 10 + 0.5));
+  for (int i = 0; i < 4; ++i) {
+    view = pack_view(run, wishes, max_bytes > besides ? max_bytes - besides : 0);
+    data = embedded(view_data(run, wishes, view));
+    const std::size_t now = size_without(text, run, data, wishes);
+    if (now <= besides) break;
+    besides = now;
+  }
+  const std::size_t size = write_filled_page(target, title_of(run), data, view.files, page, text);
   return {std::move(view), size};
 }
 

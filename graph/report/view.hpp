@@ -23,7 +23,9 @@ ViewWishes read_wishes(std::string_view page, const std::string& name);
 struct ViewPart {
   std::string part;
   std::string path;     ///< relative to the run's folder; empty: there is none
+  std::string node;     ///< that wrote it; empty if no node says so
   std::string lacking;  ///< what is wrong with it, or which node would write it
+  std::string note;     ///< what of the file is not in the page
   std::size_t file = 0;
 };
 /// One run as the page shows it.
@@ -34,11 +36,12 @@ struct View {
 };
 
 /// Reads the files that are wished for, of a run, up to `max_bytes` as they stand in the page. A part has the first of
-/// its files that is in the run's folder and has room; else a file of its node type with the same extension.
+/// its files that is in the run's folder and has room; else a file of its node type with the same extension. A GLB file
+/// of points that has no room is thinned until it has, to a thousand points at least, which is noted.
 View pack_view(const RunRecord& run, const ViewWishes& wishes, std::size_t max_bytes);
 
 /// Writes the page about a run with its files, all of it at most `max_bytes`: beside, then renamed. Gives what is in it
-/// and its size. Throws Error, also if the page was not built.
+/// and its size. Throws Error, also if the page was not built, or if it is larger without any file.
 std::pair<View, std::size_t> write_view(const std::filesystem::path& target, const RunRecord& run,
                                         const std::filesystem::path& page, std::size_t max_bytes);
 

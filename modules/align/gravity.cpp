@@ -200,7 +200,8 @@ Eigen::Vector3d direction_of(const std::vector<double>& values) {
 Gravity::Out Gravity::run(const In& in, const Params& params, Context& context) {
   const Eigen::Vector3d given = direction_of(params.up);
   if (in.planes->primitives.empty())
-    throw Error("there is no plane, so nothing tells what is level", "leave the frame as it is with align.none");
+    throw Error("there is no plane, so nothing tells what is level",
+                "no flat surface was found: is it a scan of rooms, in metres? align.none leaves the frame as it is");
   const std::vector<FacedArea> faces = faces_of(*in.planes, context);
   const bool forced = !given.isZero(0);
   const bool y_up = params.habit == Habit::automatic ? in.planes->cloud->y_up : params.habit == Habit::y;

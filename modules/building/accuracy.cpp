@@ -129,10 +129,10 @@ std::vector<HeatMapFace> captions(const Building& building, const std::vector<Fa
     item.distances = &faces[f];
     item.face = f;
     item.storey = face.storey;
-    item.caption = fmt::format("{} {}{}", name_of(face.surface), f,
+    item.caption = fmt::format("face {} ({}){}", f, name_of(face.surface),
                                face.room < 0 ? "" : ", " + building.rooms[static_cast<std::size_t>(face.room)].name);
     item.figures = figures.points < few_points
-                       ? "no points"
+                       ? "too few points"
                        : fmt::format("median {:+.1f} mm, 95 % {:.1f} mm, LOA{}", 1000 * figures.median,
                                      1000 * figures.p95, 10 * band_of(figures));
     result.push_back(std::move(item));
@@ -155,7 +155,9 @@ Accuracy::Out Accuracy::run(const In& in, const Params& params, Context& context
   const int specified = static_cast<int>(params.specified);
   const std::string table = table_of(*in.building, faces, specified);
   const std::string picture = heat_map(captions(*in.building, faces), params.cell, params.colour_range);
-  for (const auto& [path, text] : {std::pair{&params.path, &table}, {&params.picture, &picture}}) {
+  const std::string squares = heat_map_table(faces, in.mesh->origin, params.cell, params.colour_range);
+  for (const auto& [path, text] :
+       {std::pair{&params.path, &table}, {&params.picture, &picture}, {&params.heat_maps, &squares}}) {
     const auto target = context.output(path->path);
     AtomicFile file(target);
     file.write(*text);

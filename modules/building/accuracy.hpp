@@ -27,6 +27,12 @@ namespace atrium::building {
 /// signed distance of each square of `cell` (blue behind the face, red before it; grey: no points), with a scale of
 /// ± `colour_range`.
 ///
+/// heat_maps.json: the same squares for a program that paints them onto the faces (`atrium view` does):
+/// {atrium_heat_maps 1, units "m", origin, cell, range, step, faces}. Per face with points: face (its number), corner
+/// (its lower left one; origin + corner is in the mesh's frame), across and up (unit vectors in its plane), columns,
+/// rows, and squares: row by row from the corner, the mean signed distance in steps of `step` (0.1 mm), null without
+/// points.
+///
 /// Metrics: accuracy.{all,wall,floor,ceiling}.{points,median,rms,p95} and accuracy.area.{loa10,…,loa50,unknown}, shares
 /// of the faces' area; classes without points are left out. With `specified` also accuracy.area.meets.
 ///
@@ -49,6 +55,7 @@ struct Accuracy {
   struct Params {
     OutputPath path{"accuracy.csv"};
     OutputPath picture{"accuracy.svg"};
+    OutputPath heat_maps{"heat_maps.json"};
     double reach = 0.08;
     double cell = 0.10;
     double colour_range = 0.02;
@@ -63,6 +70,7 @@ struct Accuracy {
   static constexpr auto params = std::tuple{
       param<&Params::path>("The table, in the run's folder."),
       param<&Params::picture>("The heat map."),
+      param<&Params::heat_maps>("The heat map's squares per face, for programs."),
       param<&Params::reach>(metres, within(0.001, 1), "Points further away belong to no face."),
       param<&Params::cell>(metres, within(0.01, 10), "Edge of the heat map's squares."),
       param<&Params::colour_range>(metres, within(1e-4, 1), "Distance of the scale's ends."),

@@ -13,13 +13,14 @@ namespace atrium::building {
 
 void apply_all(CorrectionDraft& draft, const std::vector<Correction>& corrections) {
   using Apply = void (*)(CorrectionDraft&, const Correction&);
-  static constexpr std::array<std::pair<std::string_view, Apply>, 10> all{{{"rename_room", rename_room},
+  static constexpr std::array<std::pair<std::string_view, Apply>, 11> all{{{"rename_room", rename_room},
                                                                            {"merge_rooms", merge_rooms},
                                                                            {"split_room", split_room},
                                                                            {"add_opening", add_opening},
                                                                            {"change_opening", change_opening},
                                                                            {"drop_opening", drop_opening},
                                                                            {"move_wall", move_wall},
+                                                                           {"set_thickness", set_thickness},
                                                                            {"drop_face", drop_face},
                                                                            {"set_ceiling", set_ceiling},
                                                                            {"set_floor", set_floor}}};

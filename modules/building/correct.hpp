@@ -17,6 +17,7 @@ namespace atrium::building {
 ///       - change_opening: {opening: window 2, width: 1.2 m, sill: 85 cm}
 ///       - drop_opening: {opening: door 3}
 ///       - move_wall: {room: Kitchen, at: [0.0, 2.4], by: 3 cm}
+///       - set_thickness: {room: Kitchen, wall: wall 4, thickness: 36 cm}
 ///       - drop_face: {room: Bath, face: 31}
 ///       - set_ceiling: {room: Bath, height: 2.4 m}
 ///       - set_floor: {room: Bath, level: 2 cm}
@@ -42,22 +43,24 @@ namespace atrium::building {
 /// - move_wall: `by` is metres outwards, as seen from the room. The face moves that was measured, and the wall gets
 ///   thinner or thicker; `both: true` moves the whole wall, with all faces back to back in it, and its thickness stays.
 ///   Walls beside it get longer or shorter; doors and windows in it go with it.
+/// - set_thickness: of a wall where one face of it is known, an outer wall: so thick it is in floor plan, IFC and
+///   schedules, wherever no other face is behind that one. A later move_wall without `both` makes it thinner or
+///   thicker.
 /// - drop_face: two walls beside it that meet are extended until they do. Where they are parallel, the sides of a
 ///   pilaster or a niche, the wall beyond them takes the face's place. Of a column all faces go.
 /// - set_ceiling: `height` over the room's largest floor, or by so much up (`by`); set_floor: `level` over the storey's
 ///   elevation, or `by`. All of a room's ceilings (floors), or that of number `face`; only a level one has a height.
 ///
 /// Rooms stay closed. Outlines, areas, heights, volumes, walls, openings' sides and storeys are derived anew. A
-/// corrected room says so in its doubts ("corrected by hand: wall 3 moved by 0.120 m"), but for its name. A face that
-/// moves keeps what was seen of it; new ones are inferred. Confidences stay.
-///
-/// The thickness of a wall of which one face is known has no place in a building: it is a parameter of
-/// building.write_ifc and building.schedule.
+/// corrected room says so in its doubts ("corrected by hand: wall 3 moved by 0.120 m"), but for its name; the faces and
+/// openings that were changed or are new say it in their own `corrections`. A face that moves keeps what was seen of
+/// it; new ones are inferred. Confidences stay.
 ///
 /// Errors, with file, line and column, and what would be right: no YAML, unknown or missing keys, wrong values; a room,
-/// wall, face or opening that is not there; an opening that leaves its wall or overlaps another one; a wall moved so
-/// far that another has no width left, or into another room; what would not be one closed room. Then nothing is
-/// corrected. No random numbers. Cost: seconds for 100 rooms.
+/// wall, face or opening that is not there; an opening that leaves its wall or overlaps another one; the thickness of a
+/// wall whose two faces are known, or one that reaches into another room; a wall moved so far that another has no width
+/// left, or into another room; what would not be one closed room. Then nothing is corrected. No random numbers. Cost:
+/// seconds for 100 rooms.
 struct Correct {
   static constexpr std::string_view type = "building.correct";
   static constexpr std::string_view summary = "Applies corrections by hand, from a file, to a building.";

@@ -62,6 +62,7 @@ void add_opening(CorrectionDraft& draft, const Correction& correction) {
   box.low = fitting.view().foot(box.left, box.right) + correction.number_or("sill", 0);
   box.high = box.low + correction.number("height");
   BuildingOpening opening = fitting.run(correction.text("kind"), box);
+  opening.corrections.emplace_back("added");
   mark_opening(draft, opening,
                fmt::format("{} of {} added in {}", opening.kind, size_text(box), wall_called(draft, correction, face)));
   draft.add_opening(std::move(opening));
@@ -97,12 +98,14 @@ void change_opening(CorrectionDraft& draft, const Correction& correction) {
                         correction.has("distance");
   if (reshaped) {
     opening = fitting.run(kind, box);
+    opening.corrections = before.corrections;
     if (!first) swap_sides(opening);
     // Without a face there is no first side.
     if (opening.face_a < 0) swap_sides(opening);
   }
   const std::string name = draft.opening_name(index);
   const std::string change = reshaped ? fmt::format("{} changed to {}", name, size_text(box)) : name + " changed";
+  opening.corrections.push_back(kind == before.kind ? "changed" : fmt::format("changed, was a {}", before.kind));
   mark_opening(draft, opening, kind == before.kind ? change : fmt::format("{}, a {}", change, kind));
   if (before.room_b != opening.room_b && before.room_b != opening.room_a) draft.mark(before.room_b, change);
   draft.opening(index) = std::move(opening);
@@ -111,6 +114,8 @@ void change_opening(CorrectionDraft& draft, const Correction& correction) {
 void drop_opening(CorrectionDraft& draft, const Correction& correction) {
   const std::int32_t index = draft.opening_of(correction);
   mark_opening(draft, draft.opening(index), correction.text("opening") + " dropped");
+  for (const auto face : {draft.opening(index).face_a, draft.opening(index).face_b})
+    if (face >= 0) draft.mark_face(face, correction.text("opening") + " dropped");
   draft.drop_opening(index);
 }
 

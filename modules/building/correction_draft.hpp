@@ -47,6 +47,7 @@ class CorrectionDraft {
   void rename(std::int32_t room, const std::string& name);
   /// The room says that it was corrected.
   void mark(std::int32_t room, const std::string& what);
+  void mark_face(std::int32_t index, const std::string& what) { face(index).corrections.push_back(what); }
 
   void add_opening(BuildingOpening opening) { building.openings.push_back(std::move(opening)); }
   void drop_opening(std::int32_t opening);
@@ -54,15 +55,18 @@ class CorrectionDraft {
     BuildingRoom room;  ///< without faces
     RoomShell shell;
   };
-  /// The rooms go, the others come in their place; openings stay in the faces that are made from theirs. Returns the
-  /// new rooms' numbers. An opening whose face is no more is the correction's Error.
+  /// The rooms go, the others come in their place; openings stay in the faces that are made from theirs, and faces that
+  /// are new or have another shape say so. Returns the new rooms' numbers. An opening whose face is no more is the
+  /// correction's Error.
   std::vector<std::int32_t> replace(const Correction& correction, const std::vector<std::int32_t>& removed,
                                     std::vector<NewRoom> rooms);
 
  private:
   std::int32_t face_by_wall(const Correction& correction, std::int32_t room);
   std::int32_t face_by_place(const Correction& correction, std::int32_t room) const;
-  std::int32_t append(NewRoom room, std::vector<std::vector<std::int32_t>>& sources);
+  std::int32_t append(const Correction& correction, NewRoom room, std::vector<std::vector<std::int32_t>>& sources);
+  void mark_new_shape(const Correction& correction, BuildingFace& face, const std::vector<std::int32_t>& sources,
+                      double area) const;
   void move_openings(const Correction& correction, const std::vector<std::int32_t>& removed,
                      const std::vector<std::int32_t>& rooms, const std::vector<std::vector<std::int32_t>>& sources);
   std::int32_t successor(std::int32_t face, const std::vector<std::int32_t>& rooms,

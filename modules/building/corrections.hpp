@@ -14,6 +14,7 @@ void add_opening(CorrectionDraft& draft, const Correction& correction);
 void change_opening(CorrectionDraft& draft, const Correction& correction);
 void drop_opening(CorrectionDraft& draft, const Correction& correction);
 void move_wall(CorrectionDraft& draft, const Correction& correction);
+void set_thickness(CorrectionDraft& draft, const Correction& correction);
 void drop_face(CorrectionDraft& draft, const Correction& correction);
 void set_ceiling(CorrectionDraft& draft, const Correction& correction);
 void set_floor(CorrectionDraft& draft, const Correction& correction);

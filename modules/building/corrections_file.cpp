@@ -75,14 +75,9 @@ class CorrectionsReader {
     const auto& rules = correction_rules();
     const auto rule =
         std::find_if(rules.begin(), rules.end(), [&](const CorrectionRule& r) { return r.name == entry.key; });
-    if (rule == rules.end()) {
-      if (entry.key.find("thickness") != std::string::npos)
-        refuse(at(entry.place), fmt::format("unknown correction '{}'", entry.key),
-               "walls of which one face is known have one thickness for all: `-s write_ifc.assumed_thickness=…` and "
-               "`-s schedule.assumed_thickness=…`");
+    if (rule == rules.end())
       refuse(at(entry.place), fmt::format("unknown correction '{}'", entry.key),
              suggestion(entry.key, words_of(rules, [](const auto& r) { return std::string(r.name); }), "corrections"));
-    }
     if (!entry.value.is_mapping())
       refuse(at(entry.value.place), fmt::format("'{}' needs its keys", entry.key),
              fmt::format("as in `- {}: {{{}: …}}`", entry.key, rule->required.front()));
@@ -239,6 +234,7 @@ const std::vector<CorrectionRule>& correction_rules() {
       {"change_opening", {"opening"}, {"room", "corner"}, {}, {"kind", "distance", "by", "width", "height", "sill"}},
       {"drop_opening", {"opening"}, {}, {}, {}},
       {"move_wall", {"room", "by"}, {"both"}, {"wall", "face", "at"}, {}},
+      {"set_thickness", {"room", "thickness"}, {}, {"wall", "face", "at"}, {}},
       {"drop_face", {"room"}, {}, {"wall", "face", "at"}, {}},
       {"set_ceiling", {"room"}, {"face"}, {"height", "by"}, {}},
       {"set_floor", {"room"}, {"face"}, {"level", "by"}, {}}};

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "modules/building/correction_draft.hpp"
 #include "modules/layout/kept_rooms.hpp"
@@ -30,7 +31,19 @@ std::vector<std::int32_t> numbers_of(const std::vector<bool>& kept) {
 
 }  // namespace
 
-std::int32_t CorrectionDraft::append(NewRoom added, std::vector<std::vector<std::int32_t>>& sources) {
+void CorrectionDraft::mark_new_shape(const Correction& correction, BuildingFace& face,
+                                     const std::vector<std::int32_t>& sources, double area) const {
+  constexpr double rounding = 1e-4;  // square metres
+  double before = 0;
+  for (const auto f : sources) before += flat_polygon(building, building.faces[static_cast<std::size_t>(f)]).area();
+  if (sources.empty())
+    face.corrections.push_back("new, by " + correction.name);
+  else if (std::abs(area - before) > rounding)
+    face.corrections.push_back("other shape, by " + correction.name);
+}
+
+std::int32_t CorrectionDraft::append(const Correction& correction, NewRoom added,
+                                     std::vector<std::vector<std::int32_t>>& sources) {
   const auto index = static_cast<std::int32_t>(building.rooms.size());
   const auto base = static_cast<std::uint32_t>(building.vertices.size());
   building.vertices.insert(building.vertices.end(), added.shell.vertices.begin(), added.shell.vertices.end());
@@ -42,6 +55,7 @@ std::int32_t CorrectionDraft::append(NewRoom added, std::vector<std::vector<std:
     for (auto& v : face.outline) v += base;
     for (auto& hole : face.holes)
       for (auto& v : hole) v += base;
+    mark_new_shape(correction, face, added.shell.sources[f], flat_polygon(building, face).area());
     added.room.faces.push_back(static_cast<std::int32_t>(building.faces.size()));
     building.faces.push_back(std::move(face));
     sources.push_back(added.shell.sources[f]);
@@ -93,7 +107,7 @@ std::vector<std::int32_t> CorrectionDraft::replace(const Correction& correction,
   std::vector<std::vector<std::int32_t>> sources(building.faces.size());
   std::vector<std::int32_t> added;
   added.reserve(rooms.size());
-  for (auto& next : rooms) added.push_back(append(std::move(next), sources));
+  for (auto& next : rooms) added.push_back(append(correction, std::move(next), sources));
   move_openings(correction, removed, added, sources);
   for (auto& now : faces_now_)
     if (now >= 0 && is_among(face(now).room, removed)) now = successor(now, added, sources, nullptr);

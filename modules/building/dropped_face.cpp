@@ -135,6 +135,8 @@ class FaceDrop {
     piece.face.plane = target;
     piece.face.primitive = -1;
     piece.face.observed = piece.face.residual = 0;
+    piece.face.backing = 0;
+    piece.face.corrections.emplace_back("in another plane, by drop_face");
   }
 
   /// The ring of a floor's hole that the face stands on; null without one.

@@ -38,7 +38,7 @@ struct Wall {
   Eigen::Vector2d along = Eigen::Vector2d::UnitX();
   double length = 0;  ///< of the footprint along the wall
   double thickness = 0;
-  bool assumed = false;              ///< one face only was seen: the thickness is the parameter
+  bool assumed = false;              ///< one face only is known, and no thickness was given: it is the parameter
   PlanPolygon footprint;             ///< may have holes only where a column or a room stands in it
   std::vector<ProfilePart> profile;  ///< from 0 to length, without gaps
   std::vector<WallHole> holes;
@@ -124,7 +124,8 @@ struct ElementLimits {
 /// Makes the elements of a building whose z is up and that check() finds sound.
 ///
 /// 1. Faces of walls are cut with the plan of their storey. Two that look away from each other at most max_thickness
-///    apart are a wall where they overlap; the rest of a face has the assumed thickness behind it. Steps within a room
+///    apart are a wall where they overlap; the rest of a face has the thickness behind it that was given by hand
+///    (BuildingFace::backing), or the assumed one. Steps within a room
 ///    are no walls; holes in a room's plan at most max_column_width wide are columns.
 /// 2. Ends are extended to the far face of the wall that they meet. Where walls overlap then, at corners and junctions,
 ///    the higher one has the place, then one of which both faces were seen, then the longer one: the others end there.

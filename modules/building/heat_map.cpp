@@ -88,7 +88,53 @@ std::string scale_at(double x, double y, double range) {
          label(x + (steps - 9) * width, y + height + line_height, fmt::format("{:.0f} mm before it", 1000 * range));
 }
 
+std::string numbers(const Eigen::Vector3d& v, int digits) {
+  const auto number = [&](double value) {
+    const std::string text = fmt::format("{:.{}f}", value, digits);
+    return text.find_first_not_of("-0.") == std::string::npos ? std::string("0") : text;
+  };
+  return fmt::format("[{}, {}, {}]", number(v.x()), number(v.y()), number(v.z()));
+}
+
+/// The squares' means row by row from below, in tenths of a millimetre.
+std::string squares_of(const FaceDistances& face, std::int32_t columns, std::int32_t rows) {
+  std::vector<std::string> values(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), "null");
+  for (const auto& square : face.squares) {
+    // Points a little beside the face have squares that are none of it.
+    if (square.x < 0 || square.y < 0 || square.x >= columns || square.y >= rows) continue;
+    values[static_cast<std::size_t>(square.y) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(square.x)] = fmt::format("{}", std::lround(square.mean * 1e4));
+  }
+  std::string result;
+  for (const auto& value : values) result += (result.empty() ? "" : ",") + value;
+  return result;
+}
+
 }  // namespace
+
+std::string heat_map_table(const std::vector<FaceDistances>& faces, const Eigen::Vector3d& origin, double cell,
+                           double range) {
+  std::string list;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const FaceDistances& face = faces[f];
+    if (!(face.area > 0) || face.squares.empty()) continue;
+    constexpr double rounding = 1e-6;  // of a square
+    const auto count = [&](double extent) {
+      return std::max<std::int32_t>(1, static_cast<std::int32_t>(std::ceil(extent / cell - rounding)));
+    };
+    const std::int32_t columns = count(face.high.x() - face.low.x()), rows = count(face.high.y() - face.low.y());
+    const Eigen::Vector3d corner = face.origin + face.across * face.low.x() + face.up * face.low.y();
+    list += fmt::format(
+        "{}\n  {{\"face\": {}, \"corner\": {}, \"across\": {}, \"up\": {}, \"columns\": {}, \"rows\": {}, "
+        "\"squares\": [{}]}}",
+        list.empty() ? "" : ",", f, numbers(corner, 4), numbers(face.across, 7), numbers(face.up, 7), columns, rows,
+        squares_of(face, columns, rows));
+  }
+  return fmt::format(
+      "{{\"atrium_heat_maps\": 1, \"units\": \"m\", \"origin\": {}, \"cell\": {}, \"range\": {}, \"step\": 0.0001, "
+      "\"faces\": [{}\n]}}\n",
+      numbers(origin, 4), cell, range, list);
+}
 
 std::string heat_map(const std::vector<HeatMapFace>& faces, double cell, double range) {
   std::vector<const HeatMapFace*> order;

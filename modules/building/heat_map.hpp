@@ -13,6 +13,11 @@ struct HeatMapFace {
   std::string caption, figures;
 };
 
+/// The same as JSON, to be painted onto the faces (heat_maps.json, as building.accuracy documents it). `origin` is the
+/// mesh's.
+std::string heat_map_table(const std::vector<FaceDistances>& faces, const Eigen::Vector3d& origin, double cell,
+                           double range);
+
 /// An SVG page of faces as seen from their rooms, storey by storey, their squares coloured by the mean signed distance
 /// from −range (blue) to +range (red), with a scale.
 std::string heat_map(const std::vector<HeatMapFace>& faces, double cell, double range);

@@ -59,7 +59,9 @@ struct IfcQuantity {
 };
 void add_quantities(IfcContext& ifc, StepRef object, const std::string& key, const std::string& set,
                     const std::vector<IfcQuantity>& quantities);
-/// What of these faces was seen: "Atrium_Evidence".
+/// What was done by hand, as one text.
+std::string corrections_text(const std::vector<std::string>& corrections);
+/// What of these faces was seen, and what was corrected: "Atrium_Evidence".
 void add_evidence(IfcContext& ifc, StepRef object, const std::string& key, const std::vector<std::int32_t>& faces,
                   IfcProperties more = {});
 void add_relation(IfcContext& ifc, std::string_view type, const std::string& key, const StepValue& first,

@@ -103,6 +103,8 @@ StepRef add_filling(IfcContext& ifc, const BuildingOpening& opening, std::int32_
     evidence.emplace_back(
         label,
         typed("IFCTEXT", text(room < 0 ? std::string() : ifc.building.rooms[static_cast<std::size_t>(room)].name)));
+  if (!opening.corrections.empty())
+    evidence.emplace_back("Corrections", typed("IFCTEXT", text(corrections_text(opening.corrections))));
   add_properties(ifc, ref, key, "Atrium_Evidence", evidence);
   add_quantities(ifc, ref, key, door ? "Qto_DoorBaseQuantities" : "Qto_WindowBaseQuantities",
                  {{"length", "Width", p.width}, {"length", "Height", p.height}, {"area", "Area", p.width * p.height}});

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -40,11 +42,18 @@ void add_quantities(IfcContext& ifc, StepRef object, const std::string& key, con
          ifc.file.add("IFCELEMENTQUANTITY", {ifc.id("set " + own), none(), text(set), none(), none(), refs(values)}));
 }
 
+std::string corrections_text(const std::vector<std::string>& corrections) {
+  std::string all;
+  for (const auto& done : corrections) all += (all.empty() ? "" : "; ") + done;
+  return all;
+}
+
 void add_evidence(IfcContext& ifc, StepRef object, const std::string& key, const std::vector<std::int32_t>& faces,
                   IfcProperties more) {
   double area = 0, seen = 0, squares = 0, confidence = 2;
   std::int64_t inferred = 0;
   std::string list;
+  std::vector<std::string> corrections;
   for (const auto f : faces) {
     const BuildingFace& face = ifc.face(f);
     double own = 0;
@@ -58,6 +67,7 @@ void add_evidence(IfcContext& ifc, StepRef object, const std::string& key, const
       if (room >= 0) confidence = std::min(confidence, room);
     }
     list += (list.empty() ? "" : ", ") + std::to_string(f);
+    for (const auto& done : face.corrections) corrections.push_back(fmt::format("face {} {}", f, done));
   }
   const auto count = static_cast<std::int64_t>(faces.size());
   IfcProperties properties{{"Coverage", typed("IFCREAL", real(area > 0 ? seen / area : 0))},
@@ -67,6 +77,8 @@ void add_evidence(IfcContext& ifc, StepRef object, const std::string& key, const
                            {"Inferred", typed("IFCBOOLEAN", step::truth(inferred == count))},
                            {"Faces", typed("IFCTEXT", text(list))}};
   if (confidence <= 1) properties.emplace_back("RoomConfidence", typed("IFCREAL", real(confidence)));
+  if (!corrections.empty())
+    properties.emplace_back("Corrections", typed("IFCTEXT", text(corrections_text(corrections))));
   properties.insert(properties.end(), more.begin(), more.end());
   add_properties(ifc, object, key, "Atrium_Evidence", properties);
 }

@@ -96,7 +96,7 @@ void add_space(IfcContext& ifc, std::size_t index) {
   std::string doubts;
   for (const auto& doubt : room.doubts) doubts += (doubts.empty() ? "" : "; ") + doubt;
   IfcProperties judged;
-  if (room.confidence >= 0) judged = {{"Doubts", typed("IFCTEXT", text(doubts))}};
+  if (room.confidence >= 0 || !room.doubts.empty()) judged = {{"Doubts", typed("IFCTEXT", text(doubts))}};
   add_evidence(ifc, ref, key, room.faces, judged);
   add_quantities(ifc, ref, key, "Qto_SpaceBaseQuantities",
                  {{"length", "Height", room.height},

@@ -39,10 +39,19 @@ class FaceShift {
     check_sides();
     move_openings();
     for (const auto& [v, motion] : motions_) draft_.building.vertices[v] += motion;
-    for (const auto& [f, by] : shifts_) draft_.face(f).plane.offset -= by;
+    for (const auto& [f, by] : shifts_) {
+      draft_.face(f).plane.offset -= by;
+      if (by != 0) draft_.mark_face(f, told_shift(draft_.face(f), by));
+    }
   }
 
  private:
+  static std::string told_shift(const BuildingFace& face, double by) {
+    if (face.surface == SurfaceClass::wall)
+      return fmt::format("moved {} by {:.3f} m", by > 0 ? "inwards" : "outwards", std::abs(by));
+    return fmt::format("{} by {:.3f} m", by * face.plane.normal.z() > 0 ? "raised" : "lowered", std::abs(by));
+  }
+
   /// Faces in one plane that touch move together.
   void take_neighbours_in_plane() {
     std::vector<std::int32_t> open;

@@ -74,6 +74,22 @@ void raise(CorrectionDraft& draft, const Correction& correction, std::int32_t ro
   settle_rooms(draft, correction, {room}, before);
 }
 
+/// Where the thickness of a wall was given by hand, its far side stays when the near one moves.
+void keep_far_sides(CorrectionDraft& draft, const Correction& correction, const std::vector<BuildingFace>& before) {
+  constexpr double thinnest = 0.01;  // metres
+  for (std::size_t f = 0; f < before.size(); ++f) {
+    BuildingFace& face = draft.building.faces[f];
+    if (!(face.backing > 0)) continue;
+    const double thickness = before[f].backing + before[f].plane.offset - face.plane.offset;
+    if (thickness < thinnest)
+      correction.fail("by",
+                      fmt::format("that is too far: {} is {:.3f} m thick there, by set_thickness",
+                                  draft.face_name(static_cast<std::int32_t>(f)), before[f].backing),
+                      "a smaller value; or `both: true`, which moves the whole wall");
+    face.backing = thickness;
+  }
+}
+
 }  // namespace
 
 std::string wall_called(const CorrectionDraft& draft, const Correction& correction, std::int32_t face) {
@@ -96,7 +112,9 @@ void move_wall(CorrectionDraft& draft, const Correction& correction) {
   }
   const std::vector<std::int32_t> moved(rooms.begin(), rooms.end());
   const Overlap before = overlap_of(draft.building, moved);
+  const std::vector<BuildingFace> faces = draft.building.faces;
   shift_faces(draft, correction, shifts);
+  if (!correction.yes("both")) keep_far_sides(draft, correction, faces);
   settle_rooms(draft, correction, moved, before);
   for (const auto r : moved)
     draft.mark(r, r == room

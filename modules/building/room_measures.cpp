@@ -238,10 +238,14 @@ void settle_rooms(CorrectionDraft& draft, const Correction& correction, const st
 void settle_building(CorrectionDraft& draft, bool floors) {
   Building& building = draft.building;
   building.walls = layout::wall_pairs(building, draft.max_thickness);
-  for (auto& opening : building.openings)
+  for (auto& opening : building.openings) {
     if (opening.face_a >= 0 && opening.face_b >= 0 && opening.outline_a.size() >= 3)
       opening.thickness = std::abs(
           building.faces[static_cast<std::size_t>(opening.face_b)].plane.signed_distance(opening.outline_a[0]));
+    if ((opening.face_a < 0) == (opening.face_b < 0)) continue;
+    const BuildingFace& only = building.faces[static_cast<std::size_t>(std::max(opening.face_a, opening.face_b))];
+    if (only.backing > 0) opening.thickness = only.backing;
+  }
   if (floors) settle_elevations(building);
   std::vector<double> areas(building.storeys.size(), 0), volumes(building.storeys.size(), 0);
   for (const auto& room : building.rooms) {

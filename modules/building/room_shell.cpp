@@ -41,6 +41,9 @@ void take_evidence(const std::vector<const WeldedPiece*>& pieces, BuildingFace& 
     seen += piece->area * from.observed;
     squares += piece->area * from.observed * from.residual * from.residual;
     if (piece->piece->source >= 0) sources.push_back(piece->piece->source);
+    for (const auto& done : from.corrections)
+      if (std::find(face.corrections.begin(), face.corrections.end(), done) == face.corrections.end())
+        face.corrections.push_back(done);
   }
   face.observed = area > 0 ? seen / area : 0;
   face.residual = seen > 0 ? std::sqrt(squares / seen) : 0;

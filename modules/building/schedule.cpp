@@ -106,7 +106,7 @@ std::int32_t storey_of(const Building& building, const BuildingOpening& opening)
 
 std::string openings_table(const Building& building, const std::vector<std::string>& walls, bool windows) {
   CsvTable table(std::string(windows ? "name," : "name,kind,") +
-                 "storey,from_room,to_room,width_m,height_m,sill_m,area_m2,wall_thickness_m,wall");
+                 "storey,from_room,to_room,width_m,height_m,sill_m,area_m2,wall_thickness_m,wall,corrected");
   const std::vector<std::string> names = opening_names(building);
   for (std::size_t o = 0; o < building.openings.size(); ++o) {
     const BuildingOpening& opening = building.openings[o];
@@ -117,7 +117,7 @@ std::string openings_table(const Building& building, const std::vector<std::stri
     if (!windows) table << opening.kind;
     table << static_cast<std::size_t>(storey_of(building, opening)) << room_name(building, opening.room_a)
           << room_name(building, opening.room_b) << size.width << size.height << size.sill << size.width * size.height
-          << known(opening.thickness) << walls[o];
+          << known(opening.thickness) << walls[o] << yes(!opening.corrections.empty());
     table.end();
   }
   return table.text();
@@ -126,23 +126,26 @@ std::string openings_table(const Building& building, const std::vector<std::stri
 std::string walls_table(const Building& building, const Elements& elements) {
   CsvTable table(
       "name,storey,left_room,right_room,length_m,thickness_m,thickness_assumed,height_m,gross_m2,net_m2,gross_m3,"
-      "net_m3,doors_and_windows,coverage,inferred");
+      "net_m3,doors_and_windows,coverage,inferred,faces,corrected");
   for (std::size_t w = 0; w < elements.walls.size(); ++w) {
     const Wall& wall = elements.walls[w];
     double area = 0, seen = 0;
-    bool inferred = true;
+    bool inferred = true, corrected = false;
+    std::string faces;
     for (const auto f : wall.faces) {
       const BuildingFace& face = building.faces[static_cast<std::size_t>(f)];
       area += area_of(building, face);
       seen += area_of(building, face) * face.observed;
       inferred = inferred && face.primitive < 0;
+      corrected = corrected || !face.corrections.empty();
+      faces += fmt::format("{}{}", faces.empty() ? "" : " ", f);
     }
     const auto main = [](const WallHole& hole) { return hole.main; };
     const auto holes = static_cast<std::size_t>(std::count_if(wall.holes.begin(), wall.holes.end(), main));
     table << wall_name(w) << static_cast<std::size_t>(wall.storey) << room_name(building, wall.left_room)
           << room_name(building, wall.right_room) << wall.length << wall.thickness << yes(wall.assumed)
           << wall.high() - wall.low() << wall.gross_area() << wall.net_area() << wall.gross_volume()
-          << wall.net_volume() << holes << (area > 0 ? seen / area : 0) << yes(inferred);
+          << wall.net_volume() << holes << (area > 0 ? seen / area : 0) << yes(inferred) << faces << yes(corrected);
     table.end();
   }
   return table.text();

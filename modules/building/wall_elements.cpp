@@ -74,7 +74,7 @@ void mitre(std::vector<WallPiece>& pieces) {
     }
 }
 
-/// Pieces of which one face is known get the other one.
+/// Pieces of which one face is known and no thickness was given get the other face.
 std::vector<bool> thicken(std::vector<WallPiece>& pieces, double thickness) {
   std::vector<bool> assumed;
   for (auto& piece : pieces) {

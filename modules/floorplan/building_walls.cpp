@@ -175,6 +175,7 @@ std::vector<WallFace> wall_faces(const Building& building, std::int32_t storey, 
     if (face.storey != storey || face.surface != SurfaceClass::wall) continue;
     WallFace line = line_of(building, face, at);
     line.primitive = static_cast<std::int32_t>(f);
+    line.backing = face.backing;
     if (face.room >= 0 && static_cast<std::size_t>(face.room) < rooms.size()) {
       const PlanPolygon& room = rooms[static_cast<std::size_t>(face.room)];
       std::erase_if(line.spans, [&](const Span& span) {
@@ -199,6 +200,7 @@ std::vector<PlanOpening> plan_openings(const Building& building, std::int32_t st
       if (outline.size() < 3) return;
       result.push_back(in_a_slab(outline, source.thickness, elevation));
       result.back().room_a = room(its_room);
+      result.back().corrected = !source.corrections.empty();
     };
     if (source.kind == "slab") {
       add_slab(source.face_a, source.room_a, source.outline_a);
@@ -215,6 +217,7 @@ std::vector<PlanOpening> plan_openings(const Building& building, std::int32_t st
     result.push_back(std::move(opening));
     result.back().room_a = room(source.room_a);
     result.back().room_b = room(source.room_b);
+    result.back().corrected = !source.corrections.empty();
   }
   return result;
 }
@@ -226,6 +229,13 @@ void mark_inferred(const Building& building, std::vector<PlanWall>& walls) {
       if (!is_face(building, f)) return true;
       const BuildingFace& face = building.faces[static_cast<std::size_t>(f)];
       return face.primitive < 0 || face.observed < hardly;
+    });
+}
+
+void mark_corrected(const Building& building, std::vector<PlanWall>& walls) {
+  for (auto& wall : walls)
+    wall.corrected = std::any_of(wall.primitives.begin(), wall.primitives.end(), [&](std::int32_t f) {
+      return is_face(building, f) && !building.faces[static_cast<std::size_t>(f)].corrections.empty();
     });
 }
 

@@ -21,6 +21,9 @@ std::vector<PlanOpening> plan_openings(const Building& building, std::int32_t st
 /// Marks the walls of whose faces none was seen on more than a tenth of its area.
 void mark_inferred(const Building& building, std::vector<PlanWall>& walls);
 
+/// Marks the walls of which a face was corrected by hand.
+void mark_corrected(const Building& building, std::vector<PlanWall>& walls);
+
 /// Takes doors and windows out of the walls.
 void interrupt(std::vector<PlanWall>& walls, const std::vector<PlanOpening>& openings);
 

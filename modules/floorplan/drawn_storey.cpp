@@ -98,9 +98,28 @@ void draw_room_labels(SvgCanvas& canvas, const Pen& pen, const PlanStorey& store
     const double size = std::max(place.scale, 0.45);  // below, no one could read it
     const Eigen::Vector2d at = pen.at(place.scale > 0 ? place.middle : room.polygon.outline.front());
     canvas.text(at + Eigen::Vector2d(0, -2.2 * size), 3.6 * size, room.name, "font-weight=\"bold\"");
+    if (room.corrected) draw_correction_mark(canvas, at - Eigen::Vector2d(0, 7.2 * size));
     canvas.text(at + Eigen::Vector2d(0, 2.0 * size), 3.0 * size, area);
     canvas.text(at + Eigen::Vector2d(0, 5.8 * size), 2.5 * size, height, "fill=\"#666\"");
     if (doubtful) canvas.text(at + Eigen::Vector2d(0, 9.4 * size), 2.5 * size, doubt, "fill=\"#b00020\"");
+  }
+  canvas.end_group();
+}
+
+/// Marks at the middles of corrected walls and openings. Those of rooms stand over their names.
+void draw_corrections(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey) {
+  if (!has_corrections(storey)) return;
+  canvas.begin_group("class=\"corrected\"");
+  for (const auto& wall : storey.walls)
+    if (wall.corrected) draw_correction_mark(canvas, pen.at(0.5 * (wall.from + wall.to)));
+  for (const auto& opening : storey.openings) {
+    if (!opening.corrected) continue;
+    Eigen::Vector2d middle = 0.5 * (opening.from + opening.to);
+    if (opening.kind == "slab") {
+      middle.setZero();
+      for (const auto& p : opening.outline) middle += p / static_cast<double>(opening.outline.size());
+    }
+    draw_correction_mark(canvas, pen.at(middle));
   }
   canvas.end_group();
 }
@@ -148,12 +167,27 @@ void draw_caption(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey, c
 
 }  // namespace
 
+bool has_corrections(const PlanStorey& storey) {
+  const auto any = [](const auto& all) {
+    return std::any_of(all.begin(), all.end(), [](const auto& item) { return item.corrected; });
+  };
+  return any(storey.walls) || any(storey.openings) || any(storey.rooms);
+}
+
+void draw_correction_mark(SvgCanvas& canvas, const Eigen::Vector2d& middle) {
+  constexpr double half = 1.1;  // millimetres
+  canvas.polygon({{middle + Eigen::Vector2d(0, -half), middle + Eigen::Vector2d(half, 0),
+                   middle + Eigen::Vector2d(0, half), middle + Eigen::Vector2d(-half, 0)}},
+                 "fill=\"#d6006c\" stroke=\"#fff\" stroke-width=\"0.25\"");
+}
+
 void draw_storey(SvgCanvas& canvas, const Sheet& sheet, std::size_t index, const PlanStorey& storey, bool dimensions) {
   const Pen pen(canvas, sheet, index);
   canvas.begin_group(fmt::format("id=\"storey-{}\"", storey.index));
   draw_areas(canvas, pen, storey);
   draw_walls(canvas, pen, storey);
   draw_openings(canvas, pen, storey);
+  draw_corrections(canvas, pen, storey);
   draw_room_labels(canvas, pen, storey);
   if (dimensions) draw_dimensions(canvas, pen, storey);
   draw_caption(canvas, pen, storey, sheet.captions[index]);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "modules/floorplan/building_walls.hpp"
 #include "modules/floorplan/regions.hpp"
@@ -84,13 +85,19 @@ PlanStorey storey_of(const Building& building, std::int32_t index, const std::ve
     const BuildingRoom& room = building.rooms[r];
     if (room.storey != index || rooms[r].outline.size() < 3) continue;
     number[r] = static_cast<std::int32_t>(storey.rooms.size());
-    storey.rooms.push_back({room.name, rooms[r], room.height, room.confidence});
+    // Levels and shapes: walls and openings have marks of their own.
+    const bool corrected = std::any_of(room.faces.begin(), room.faces.end(), [&](std::int32_t f) {
+      const BuildingFace& face = building.faces[static_cast<std::size_t>(f)];
+      return face.surface != SurfaceClass::wall && !face.corrections.empty();
+    });
+    storey.rooms.push_back({room.name, rooms[r], room.height, room.confidence, corrected});
   }
   constexpr double merge_distance = 0.001, min_length = 0.01;
   storey.walls = walls_of(
       wall_faces(building, index, params.cut_height, rooms),
       {params.min_thickness, params.max_thickness, wall_parallel_angle, params.corner_gap, merge_distance, min_length});
   mark_inferred(building, storey.walls);
+  mark_corrected(building, storey.walls);
   storey.openings = plan_openings(building, index, rooms, number);
   interrupt(storey.walls, storey.openings);
   std::vector<PlanRing> outlines, in_floor, overhead;

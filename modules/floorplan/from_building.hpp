@@ -12,9 +12,10 @@ namespace atrium::floorplan {
 /// - Walls are the faces of rooms cut at cut_height over their storey's floor; where one ends below that (under a
 ///   slanted ceiling) it is cut where it is, and what is only above (a lintel) is left out. Two faces that look away
 ///   from each other at most max_thickness apart are a wall of that thickness where they overlap; a face that has none
-///   is a wall of unknown thickness (0). A wall of whose faces none was seen (on more than a tenth of its area) is
-///   inferred, and no part of the walls' bodies. Ends that miss another wall by at most corner_gap are joined to it.
-///   Steps within a room are no walls, and openings in them are not drawn.
+///   is a wall of unknown thickness (0), or of the one that was given by hand (building.correct). A wall of whose faces
+///   none was seen (on more than a tenth of its area) is inferred, and no part of the walls' bodies. Ends that miss
+///   another wall by at most corner_gap are joined to it. Steps within a room are no walls, and openings in them are
+///   not drawn.
 /// - Doors and windows interrupt the walls, whatever their height; a hole in a slab is drawn in the floor of the storey
 ///   above and overhead in the one below.
 /// - Floors and ceilings: their faces seen from above, without the holes of slabs.

@@ -67,6 +67,12 @@ WallPiece piece_of(const WallFace& face, const Span& span) {
   piece.to = face.at(span.to);
   piece.start = {piece.from, face.normal};
   piece.end = {piece.to, face.normal};
+  if (face.backing > 0) {
+    piece.thickness = face.backing;
+    piece.right.point -= face.backing * face.normal;
+    piece.from -= 0.5 * face.backing * face.normal;
+    piece.to -= 0.5 * face.backing * face.normal;
+  }
   if (face.primitive >= 0) piece.primitives.push_back(face.primitive);
   return piece;
 }

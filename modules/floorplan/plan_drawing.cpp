@@ -19,7 +19,7 @@ constexpr std::string_view hatch =
 
 std::string note_of(const FloorPlan& plan, double turn) {
   const double degrees = turn * 180 / std::numbers::pi;
-  std::string note = "N is +y of the input";
+  std::string note = "The arrow is +y of the input";
   if (std::abs(degrees) >= 0.05) note += fmt::format(", whose axes are turned by {:.1f}\u00B0", -degrees);
   if (plan.origin.head<2>().norm() >= 1000)
     note += fmt::format("; near x {:.0f} m, y {:.0f} m", plan.origin.x(), plan.origin.y());
@@ -41,12 +41,13 @@ DrawnPlan drawn_plan(const FloorPlan& plan, const PlanDrawing& drawing) {
 std::string svg_sheet(const FloorPlan& plan, const DrawnPlan& drawn, const Sheet& sheet, const PlanDrawing& drawing,
                       const std::string& remark) {
   const auto& storeys = drawn.storeys;
-  TitleBlock block{drawing.title, note_of(plan, drawn.turn) + remark, 0, storeys.size(), 0, -drawn.turn};
+  TitleBlock block{drawing.title, note_of(plan, drawn.turn) + remark, 0, storeys.size(), 0, false, -drawn.turn};
   SvgCanvas canvas(sheet.size.x(), sheet.size.y(), drawing.title);
   canvas.raw(hatch);
   for (std::size_t i = 0; i < storeys.size(); ++i) {
     draw_storey(canvas, sheet, i, storeys[i], drawing.dimensions);
     block.rooms += storeys[i].rooms.size();
+    block.corrected = block.corrected || has_corrections(storeys[i]);
     for (const auto& room : storeys[i].rooms) block.area += room.polygon.area();
   }
   if (storeys.empty())

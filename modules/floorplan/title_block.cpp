@@ -20,7 +20,7 @@ void draw_north(SvgCanvas& canvas, const Eigen::Vector2d& centre, double north) 
   canvas.polygon({{tip, foot - 0.42 * radius * right, tail}}, "fill=\"#fff\"");
   canvas.end_group();
   const Eigen::Vector2d letter = centre + (radius + 2.2) * up;
-  canvas.text(letter + Eigen::Vector2d(0, 1.1), 3.2, "N", "text-anchor=\"middle\" font-weight=\"bold\"");
+  canvas.text(letter + Eigen::Vector2d(0, 1.1), 3.2, "y", "text-anchor=\"middle\" font-weight=\"bold\"");
 }
 
 // A bar of five steps of 1, 2 or 5 times a power of ten metres (or feet), as long as there is room for.
@@ -70,7 +70,14 @@ void draw_title(SvgCanvas& canvas, const Sheet& sheet, const TitleBlock& block) 
       fmt::format("{} {} \u00B7 {} {} \u00B7 {}", block.storeys, block.storeys == 1 ? "storey" : "storeys", block.rooms,
                   block.rooms == 1 ? "room" : "rooms", area_text(block.area, sheet.units));
   fit({left + 5, top + 14.5}, fitted(holds, width, 2.8, 1.7), {});
-  fit({left + 5, top + 19.5}, fitted(block.note, width, 2.4, 1.5), "fill=\"#555\"");
+  double legend = 0;  // what it takes of the line
+  if (block.corrected) {
+    const std::string text = "corrected by hand";
+    draw_correction_mark(canvas, {left + 6.1, top + 18.7});
+    canvas.text({left + 8.5, top + 19.5}, 2.4, text, "fill=\"#555\"");
+    legend = 8.5 + font_width(text, 2.4, false);
+  }
+  fit({left + 5 + legend, top + 19.5}, fitted(block.note, width - legend, 2.4, 1.5), "fill=\"#555\"");
   const std::string scale = fmt::format("1:{}", sheet.scale),
                     paper = fmt::format("on {}, dimensions in {}", sheet.paper, name_of(sheet.units));
   canvas.text({right - 85, top + 7.5}, 4, scale, "font-weight=\"bold\"");

@@ -23,6 +23,7 @@ struct WallFace {
   Eigen::Vector2d normal = Eigen::Vector2d::UnitY();  ///< to the side from which it is seen
   std::vector<Span> spans;                            ///< along `along` from `point`, ascending
   std::int32_t primitive = -1;
+  double backing = 0;  ///< how thick the wall is where no other face is behind this one; 0: not known
 
   Eigen::Vector2d along() const { return {normal.y(), -normal.x()}; }
   Eigen::Vector2d at(double s) const { return point + s * along(); }

@@ -21,6 +21,7 @@ struct WallLimits {
 ///    overlap. The nearest pairs take their part of both faces first, so that a face may have several opposite ones
 ///    along its length, and each part of a face belongs to one wall.
 /// 2. What is left of a face is a wall of which only that face is known: thickness 0, seen from the left of from → to.
+///    Where the thickness behind it is given (WallFace::backing), it is a wall as if the other face had been seen.
 /// 3. A wall whose end is at most corner_gap away from another's face is extended or cut to it: a wall of two faces to
 ///    the far face of the other, so that corners and T-junctions close; a single face to the near one.
 /// 4. Single faces that lie in another wall, or run beside a face that is there within merge_distance, are left out, as

@@ -63,6 +63,7 @@ void add_openings(Features& features, const PlanStorey& storey) {
     }
     properties["sill_m"] = rounded(opening.sill, 1e4);
     properties["thickness_m"] = known(opening.thickness);
+    if (opening.corrected) properties["corrected"] = true;
     if (opening.outline.empty())
       features.add(properties, opening.from, opening.to);
     else
@@ -82,11 +83,12 @@ void add_storey(Features& features, const PlanStorey& storey, double origin_z) {
                   {"confidence", room.confidence >= 0 ? Json(rounded(room.confidence, 1e2)) : Json()}},
                  room.polygon);
   for (const auto& wall : storey.walls) {
-    const Json properties{{"class", "wall"},
-                          {"storey", storey.index},
-                          {"thickness_m", known(wall.thickness)},
-                          {"length_m", rounded((wall.to - wall.from).norm(), 1e4)},
-                          {"inferred", wall.inferred}};
+    Json properties{{"class", "wall"},
+                    {"storey", storey.index},
+                    {"thickness_m", known(wall.thickness)},
+                    {"length_m", rounded((wall.to - wall.from).norm(), 1e4)},
+                    {"inferred", wall.inferred}};
+    if (wall.corrected) properties["corrected"] = true;
     if (wall.outline.empty())
       features.add(properties, wall.from, wall.to);
     else

@@ -11,10 +11,12 @@ namespace atrium::floorplan {
 /// go is custom, not measured; wide ones are passages), windows double panes, holes in the floor are crossed, those
 /// overhead dashed. Each room has its name, area and height; outside of the building stand chains of dimensions, of the
 /// wall faces seen from that side and of the whole, in `units`: metres to the centimetre, whole millimetres, or feet
-/// and inches to the half inch (12′ 3½″, areas in square feet). The sheet has a scale bar, a north arrow (the input's
-/// +y), and a title block with the scale, the number of rooms and their area; no date, so that the same plan gives the
-/// same bytes. An elevation or a height that is not known is said to be unknown; a title that is too long for its place
-/// is set smaller, or cut off with "…".
+/// and inches to the half inch (12′ 3½″, areas in square feet). The sheet has a scale bar, an arrow along the input's
+/// +y (north, if that is a grid's northing), and a title block with the scale, the number of rooms and their area; no
+/// date, so that the same plan gives the same bytes. An elevation or a height that is not known is said to be unknown.
+/// What was corrected by hand (building.correct) has a small diamond, which the title block explains: walls and
+/// openings at their middles, rooms of which a floor or a ceiling was over their names. A title that is too long for
+/// its place is set smaller, or cut off with "…".
 ///
 /// All storeys stand on one sheet, the lowest at the left and at the bottom, at the greatest usual scale that A4 or A3
 /// has room for (1:50, 1:100, 1:200, 1:500, …) unless `scale` and `paper` say otherwise; `storey` draws one alone. Many

@@ -35,10 +35,8 @@ Json room_to_json(const BuildingRoom& room) {
             {"faces", room.faces},
             {"outline", json_of(room.outline)}};
   if (!room.holes.empty()) json["holes"] = json_of_rings(room.holes);
-  if (room.confidence >= 0) {
-    json["confidence"] = room.confidence;
-    json["doubts"] = room.doubts;
-  }
+  if (room.confidence >= 0) json["confidence"] = room.confidence;
+  if (room.confidence >= 0 || !room.doubts.empty()) json["doubts"] = room.doubts;
   return json;
 }
 
@@ -66,6 +64,8 @@ Json face_to_json(const Building& building, const BuildingFace& face) {
             {"residual", face.residual},
             {"outline", face.outline}};
   if (!face.holes.empty()) json["holes"] = face.holes;
+  if (face.backing > 0) json["backing"] = face.backing;
+  if (!face.corrections.empty()) json["corrections"] = face.corrections;
   return json;
 }
 
@@ -91,6 +91,7 @@ Json opening_to_json(const BuildingOpening& opening, const Eigen::Vector3d& up) 
   }
   json["outline_a"] = json_of(opening.outline_a);
   json["outline_b"] = json_of(opening.outline_b);
+  if (!opening.corrections.empty()) json["corrections"] = opening.corrections;
   return json;
 }
 
@@ -120,12 +121,18 @@ Eigen::Vector3d direction_of(const JsonField& field) {
   return direction;
 }
 
+std::vector<std::string> texts_of(const JsonField& field, const char* key) {
+  std::vector<std::string> result;
+  if (!field.has(key)) return result;
+  for (const auto& item : field[key].items()) result.push_back(item.text());
+  return result;
+}
+
 void confidence_from(const JsonField& field, double& confidence, std::vector<std::string>& doubts) {
+  doubts = texts_of(field, "doubts");
   if (!field.has("confidence")) return;
   confidence = field["confidence"].number();
   if (!(confidence >= 0 && confidence <= 1)) field["confidence"].fail("is not between 0 and 1");
-  if (field.has("doubts"))
-    for (const auto& reason : field["doubts"].items()) doubts.push_back(reason.text());
 }
 
 BuildingRoom room_from_json(const JsonField& field, std::int32_t last_storey, std::int32_t last_face) {
@@ -157,6 +164,9 @@ BuildingFace face_from_json(const JsonField& field, std::int32_t last_storey, st
   face.outline = corners_of(field["outline"], last_vertex);
   if (field.has("holes"))
     for (const auto& hole : field["holes"].items()) face.holes.push_back(corners_of(hole, last_vertex));
+  if (field.has("backing")) face.backing = field["backing"].number();
+  if (face.backing < 0) field["backing"].fail("is below 0");
+  face.corrections = texts_of(field, "corrections");
   return face;
 }
 
@@ -170,6 +180,7 @@ BuildingOpening opening_from_json(const JsonField& field, std::int32_t last_room
   opening.thickness = field["thickness"].number();
   opening.outline_a = places_of(field["outline_a"]);
   opening.outline_b = places_of(field["outline_b"]);
+  opening.corrections = texts_of(field, "corrections");
   return opening;
 }
 

@@ -105,7 +105,9 @@ void check_count(const RawGeometry& geometry) {
                             std::numeric_limits<std::uint32_t>::max()));
   if (geometry.count < 3)
     throw Error(fmt::format("{}: {}", geometry.path,
-                            geometry.count == 0 ? "no points" : fmt::format("only {} points", geometry.count)),
+                            geometry.count == 0   ? "no points"
+                            : geometry.count == 1 ? "only 1 point"
+                                                  : "only 2 points"),
                 "three points are the least that define a plane");
 }
 

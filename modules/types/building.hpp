@@ -17,9 +17,10 @@ namespace atrium {
 /// share their corners; two faces that meet along an edge both have all vertices that lie on it.
 struct BuildingFace {
   static constexpr auto members() {
-    return std::tuple{&BuildingFace::surface, &BuildingFace::storey,    &BuildingFace::room,
-                      &BuildingFace::plane,   &BuildingFace::primitive, &BuildingFace::outline,
-                      &BuildingFace::holes,   &BuildingFace::observed,  &BuildingFace::residual};
+    return std::tuple{&BuildingFace::surface, &BuildingFace::storey,     &BuildingFace::room,
+                      &BuildingFace::plane,   &BuildingFace::primitive,  &BuildingFace::outline,
+                      &BuildingFace::holes,   &BuildingFace::observed,   &BuildingFace::residual,
+                      &BuildingFace::backing, &BuildingFace::corrections};
   }
   SurfaceClass surface = SurfaceClass::wall;
   std::int32_t storey = 0;
@@ -31,23 +32,27 @@ struct BuildingFace {
       holes;            ///< clockwise seen from the room: not openings, but columns and the like
   double observed = 0;  ///< share of its area (without openings) that points cover
   double residual = 0;  ///< RMS distance of those points to the plane, metres; 0: no points
+  double backing = 0;   ///< of a wall's face, by hand: how thick the wall is where no other face is behind it, metres;
+                        ///< 0: not known
+  std::vector<std::string> corrections;  ///< what building.correct did to it
 };
 
 /// A door, a passage, a window, or a hole in a slab: a polygon in the plane of a face.
 struct BuildingOpening {
   static constexpr auto members() {
-    return std::tuple{&BuildingOpening::kind,      &BuildingOpening::room_a,   &BuildingOpening::room_b,
-                      &BuildingOpening::face_a,    &BuildingOpening::face_b,   &BuildingOpening::thickness,
-                      &BuildingOpening::outline_a, &BuildingOpening::outline_b};
+    return std::tuple{&BuildingOpening::kind,      &BuildingOpening::room_a,    &BuildingOpening::room_b,
+                      &BuildingOpening::face_a,    &BuildingOpening::face_b,    &BuildingOpening::thickness,
+                      &BuildingOpening::outline_a, &BuildingOpening::outline_b, &BuildingOpening::corrections};
   }
   std::string kind;          ///< "door", "passage" (wider than a door, without a leaf), "window", "slab"
   std::int32_t room_a = -1;  ///< the rooms that it joins; room_b −1: outside, or not known
   std::int32_t room_b = -1;
   std::int32_t face_a = -1;  ///< the faces that it pierces; face_b −1: none
   std::int32_t face_b = -1;
-  double thickness = 0;                    ///< of the wall or slab, metres; 0: only one of its faces was seen
+  double thickness = 0;                    ///< of the wall or slab, metres; 0: only one of its faces is known
   std::vector<Eigen::Vector3d> outline_a;  ///< in face_a's plane, counter-clockwise seen from room_a
   std::vector<Eigen::Vector3d> outline_b;  ///< in face_b's plane, counter-clockwise seen from room_b; empty without
+  std::vector<std::string> corrections;    ///< what building.correct did to it
 };
 
 struct BuildingRoom {

@@ -54,8 +54,9 @@ class Check {
     for (const auto f : room.faces) index(f, 0, building_.faces.size(), "room", i, "face");
   }
   void face(const BuildingFace& face, std::size_t i) const {
-    finite(face.plane.normal.allFinite() && std::isfinite(face.plane.offset + face.observed + face.residual), "face",
-           i);
+    finite(face.plane.normal.allFinite() &&
+               std::isfinite(face.plane.offset + face.observed + face.residual + face.backing),
+           "face", i);
     index(face.storey, 0, building_.storeys.size(), "face", i, "storey");
     index(face.room, -1, building_.rooms.size(), "face", i, "room");
     corners(face.outline, i);

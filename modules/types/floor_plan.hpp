@@ -26,8 +26,8 @@ struct PlanPolygon {
 /// left of from → to.
 struct PlanWall {
   static constexpr auto members() {
-    return std::tuple{&PlanWall::from,    &PlanWall::to,         &PlanWall::thickness,
-                      &PlanWall::outline, &PlanWall::primitives, &PlanWall::inferred};
+    return std::tuple{&PlanWall::from,       &PlanWall::to,       &PlanWall::thickness, &PlanWall::outline,
+                      &PlanWall::primitives, &PlanWall::inferred, &PlanWall::corrected};
   }
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< the middle line (thickness > 0) or the seen face
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
@@ -35,15 +35,16 @@ struct PlanWall {
   PlanRing outline;                      ///< counter-clockwise; reaches into the walls that it meets at its ends
   std::vector<std::int32_t> primitives;  ///< that it was made from
   bool inferred = false;                 ///< none of its faces was seen
+  bool corrected = false;                ///< one of its faces was corrected by hand
 };
 
 /// A door or a window in a wall, or a hole in a slab, seen from above. `outline` is the gap in the wall, or the hole;
 /// empty if only one face of the wall is known.
 struct PlanOpening {
   static constexpr auto members() {
-    return std::tuple{&PlanOpening::kind,    &PlanOpening::from,   &PlanOpening::to,
-                      &PlanOpening::outline, &PlanOpening::room_a, &PlanOpening::room_b,
-                      &PlanOpening::sill,    &PlanOpening::height, &PlanOpening::thickness};
+    return std::tuple{&PlanOpening::kind,      &PlanOpening::from,     &PlanOpening::to,   &PlanOpening::outline,
+                      &PlanOpening::room_a,    &PlanOpening::room_b,   &PlanOpening::sill, &PlanOpening::height,
+                      &PlanOpening::thickness, &PlanOpening::corrected};
   }
   std::string kind;  ///< "door", "passage", "window", "slab"
   Eigen::Vector2d from =
@@ -55,18 +56,21 @@ struct PlanOpening {
   double sill = 0;           ///< lower edge over the storey's elevation, metres; of a slab its own height over it
   double height = 0;         ///< lower to upper edge, metres; 0 in slabs
   double thickness = 0;      ///< of the wall or slab, metres; 0: not known
+  bool corrected = false;    ///< by hand
 
   double width() const { return (to - from).norm(); }
 };
 
 struct PlanRoom {
   static constexpr auto members() {
-    return std::tuple{&PlanRoom::name, &PlanRoom::polygon, &PlanRoom::height, &PlanRoom::confidence};
+    return std::tuple{&PlanRoom::name, &PlanRoom::polygon, &PlanRoom::height, &PlanRoom::confidence,
+                      &PlanRoom::corrected};
   }
   std::string name;
   PlanPolygon polygon;     ///< of its floor
   double height = 0;       ///< floor to ceiling, metres; 0: not known
   double confidence = -1;  ///< 0 to 1 (layout.confidence); -1: not known
+  bool corrected = false;  ///< its shape, by hand
 };
 
 struct PlanStorey {

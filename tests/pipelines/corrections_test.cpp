@@ -64,6 +64,7 @@ TEST_F(CorrectedFlat, ShowsInAllThatIsMadeFromIt) {
       "atrium_corrections: 1\ncorrections:\n  - rename_room: {room: " + (*largest)["name"].get<std::string>() +
       ", name: Wohnküche}\n"
       "  - move_wall: {room: Wohnküche, at: [0, 2.3], by: 12 cm}\n"
+      "  - set_thickness: {room: Wohnküche, at: [0, 2.3], thickness: 40 cm}\n"
       "  - add_opening: {room: Wohnküche, at: [5.7, 0.8], kind: door, corner: right, distance: 40 "
       "cm, width: 80 cm, height: 2 m}\n";
   write_text(file, lines);
@@ -88,13 +89,24 @@ TEST_F(CorrectedFlat, ShowsInAllThatIsMadeFromIt) {
   EXPECT_NE(text("made/building.ifc").find("Wohnk\\X2\\00FC\\X0\\che"), std::string::npos);
   EXPECT_NE(text("made/building.ifc").find("corrected by hand"), std::string::npos);
 
+  // The outer wall has its thickness, and what was corrected is marked.
+  EXPECT_EQ(text("plain/walls.csv").find(",yes\r\n"), std::string::npos) << "nothing was corrected";
+  EXPECT_EQ(text("plain/floorplan.svg").find("corrected by hand"), std::string::npos);
+  EXPECT_NE(text("made/walls.csv").find(",0.400,no,"), std::string::npos) << text("made/walls.csv");
+  EXPECT_NE(text("made/floorplan.svg").find("corrected by hand"), std::string::npos);
+  EXPECT_NE(text("made/building.ifc").find("moved outwards by 0.120 m; face"), std::string::npos);
+  EXPECT_EQ(door["corrections"], json::array({"added"}));
+  EXPECT_EQ(std::count_if(after["faces"].begin(), after["faces"].end(),
+                          [](const json& face) { return face.contains("backing"); }),
+            1);
+
   // Another text in the file is another result; the same text none.
   ASSERT_EQ(run("again", {"corrections=" + file}).exit_code, 0);
   EXPECT_EQ(use("again", "corrected"), "hit");
   write_text(file, lines + "  - drop_opening: {opening: window 99}\n");
   const auto refused = run("refused", {"corrections=" + file});
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_NE(refused.err.find("corrections.yaml:6:29: there is no 'window 99'"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("corrections.yaml:7:29: there is no 'window 99'"), std::string::npos) << refused.err;
   EXPECT_FALSE(fs::exists(folder / "refused/building.json"));
 }
 

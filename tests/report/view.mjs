@@ -6,6 +6,9 @@ import { existsSync, mkdtempSync, readFileSync, renameSync, rmSync, statSync } f
 import { dirname, join } from 'node:path';
 import { launch, openPage } from './browser.mjs';
 
+// A name that would do harm if it were not text, in the page and in all files that hold it.
+const NAME = 'Küche "Süd" <script>window.intruder = 1</script> \'厨房\' & кухня';
+
 const [chromium, file, kind, corrections] = process.argv.slice(2);
 const browser = await launch(chromium);
 try {
@@ -23,6 +26,9 @@ try {
   const mouse = (type, x, y, more = {}) => page.send('Input.dispatchMouseEvent', { type, x, y, button: 'left', buttons: type === 'mouseReleased' ? 0 : 1, clickCount: 1, ...more });
   const click = async (x, y) => { await mouse('mousePressed', x, y); await mouse('mouseReleased', x, y); };
   const middle = (selector) => page.evaluate(`(() => { const b = document.querySelector(${JSON.stringify(selector)}).getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()`);
+  const legend = () => text('.legend');
+  const checkbox = (label) => page.evaluate(`[...document.querySelectorAll('#space .check')].find((c) => c.textContent === ${JSON.stringify(label)}).querySelector('input').click()`);
+  const view = (name) => page.evaluate(`[...document.querySelectorAll('#space button')].find((b) => b.textContent === ${JSON.stringify(name)}).click()`);
   /** The stage's pixels, kept in the page under a name. */
   const keep = async (name) => {
     await settled();
@@ -55,17 +61,49 @@ try {
 
   async function checkLacking() {
     const gaps = await text('#gaps');
-    for (const part of ['floorplan.svg is lacking: floorplan.write_svg writes it', 'scan.glb cannot be shown', 'building.json cannot be shown']) assert.ok(gaps.includes(part), gaps);
+    for (const part of ['floorplan.svg is lacking: floorplan.write_svg writes it', 'scan.glb cannot be shown', 'building.json cannot be shown: its list "storeys" is missing']) assert.ok(gaps.includes(part), gaps);
     assert.ok((await text('#plan')).includes('There is no plan'));
     assert.equal(await count('#tables tbody tr'), 1);
+    assert.equal(await count('#tables tbody tr.clickable'), 0, 'there is no building to choose in');
+    // The mesh says which storeys there are, and both are shown.
+    assert.equal(await count('#space [data-storey]'), 2);
+    await view('Top');
+    await keep('both');
+    await press('#space [data-storey="1"]');
+    await keep('lower');
+    assert.ok((await difference('both', 'lower')).count > 1000);
     assert.equal(await page.evaluate('window.intruder'), undefined);
     assert.ok((await text('#chosen')).includes('Without building.json'));
   }
 
+  /** What was corrected is marked everywhere, and names are text everywhere. */
   async function checkCorrected() {
+    const building = JSON.parse(readFileSync(join(dirname(file), 'building.json')));
+    await press('[data-mode=model]');
     await press('#tables tbody tr[data-of^="room"]');
     assert.ok((await text('#chosen')).includes('This run is corrected already'), await text('#chosen'));
     assert.equal(await count('#chosen form'), 0);
+    const room = building.rooms.findIndex((r) => r.name === NAME);
+    assert.ok(room >= 0, building.rooms.map((r) => r.name).join());
+    await page.key('Escape');
+    await click(...await page.evaluate(`(() => { const b = document.querySelector('#plan [data-room=' + CSS.escape(${JSON.stringify(NAME)}) + ']').getBoundingClientRect(); return [b.x + b.width * 0.3, b.y + b.height * 0.35]; })()`));
+    assert.equal(await chosen(), `room ${room}`);
+    assert.equal(await text('#chosen h3'), NAME);
+    assert.equal(await page.evaluate("document.querySelector('#tables tr.chosen').cells[1].textContent"), NAME);
+    assert.equal(await page.evaluate('window.intruder'), undefined);
+    assert.ok((await text('#plan')).includes('corrected by hand'), 'the plan has no legend of corrections');
+    assert.ok((await text('.legend')).includes('corrected by hand'), await text('.legend'));
+    const [face, opening] = ['faces', 'openings'].map((list) => building[list].findIndex((of) => of.corrections?.length));
+    assert.ok(face >= 0 && opening >= 0);
+    await press('[data-table=accuracy]');
+    await press(`#tables tr[data-of="face ${face}"]`);
+    assert.equal(await text('#chosen .mark.by-hand'), 'corrected by hand');
+    assert.ok((await text('#chosen .doubts.by-hand')).includes(building.faces[face].corrections[0]));
+    await page.key('Escape');
+    await keep('plain');
+    await page.evaluate("(() => { const s = [...document.querySelectorAll('.menu select')][0]; s.value = 'corrected'; s.dispatchEvent(new Event('change')); })()");
+    await keep('coloured');
+    assert.ok((await difference('plain', 'coloured')).count > 5000, 'faces are not coloured by what was corrected');
   }
 
   async function checkFlat() {
@@ -76,6 +114,9 @@ try {
     await checkLayers();
     await checkRooms(building);
     await checkFaces(building);
+    await checkHeatMaps(building);
+    await checkWalls(building);
+    await checkKeys();
     await checkOpenings(building);
     await checkMeasuring(building);
     await checkTables(building);
@@ -157,7 +198,7 @@ try {
     await press(`#tables tr[data-of="face ${wall}"]`);
     const card = await text('#chosen');
     const of = building.faces[wall];
-    for (const part of [`Wall ${wall}`, building.rooms[of.room].name, `${Math.round(100 * of.observed)} % of it`, `${(1000 * of.residual).toFixed(1)} mm`,
+    for (const part of [`Face ${wall}, a wall`, building.rooms[of.room].name, `${Math.round(100 * of.observed)} % of it`, `${(1000 * of.residual).toFixed(1)} mm`,
                         `${Number(rows.find((row) => row[face] === String(wall))[p95]).toFixed(1)} mm, LOA`])
       assert.ok(card.includes(part), `${part}: ${card}`);
     const heat = await page.evaluate("(() => { const c = document.querySelector('.heat'); const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; const found = new Set(); for (let i = 0; i < d.length; i += 4) found.add(d.slice(i, i + 3).join()); return found.size; })()");
@@ -165,6 +206,105 @@ try {
     const floor = building.faces.findIndex((f) => f.class === 'floor');
     await press(`#tables tr[data-of="face ${floor}"]`);
     assert.ok((await text('#chosen')).includes(`${building.faces[floor].area.toFixed(2)} m²`));
+  }
+
+  /** The chosen face has the scan's distances painted on, with a scale; a switch paints all. The colours are those of heat_maps.json. */
+  async function checkHeatMaps(building) {
+    const heat = JSON.parse(readFileSync(join(dirname(file), 'heat_maps.json')));
+    const floor = heat.faces.find((f) => building.faces[f.face].class === 'floor' && f.squares.filter((v) => v !== null).length > 100);
+    const squareAt = async (face, column, row) => {
+      // Looked at from above, the square's middle is a place on the stage.
+      const place = [0, 1, 2].map((k) => heat.origin[k] + face.corner[k] + heat.cell * ((column + 0.5) * face.across[k] + (row + 0.5) * face.up[k]));
+      return page.evaluate(`document.getElementById('canvas').placeOf(${JSON.stringify(place)})`);
+    };
+    await page.key('Escape');
+    await view('Top');
+    await keep('plain');
+    assert.ok(!(await legend()).includes('mm behind'), await legend());
+    await press('[data-table=accuracy]');
+    await press(`#tables tr[data-of="face ${floor.face}"]`);
+    await keep('painted');
+    assert.ok((await legend()).includes('scan from the face20 mm behind20 mm before'), await legend());
+    assert.ok((await difference('plain', 'painted')).count > 3000, 'the heat map is not on the face');
+    const all = floor.squares.map((v, i) => [v, i % floor.columns, Math.floor(i / floor.columns)]);
+    let checked = 0;
+    for (const [value, column, row] of all.filter(([v], i) => v !== null && Math.abs(v) > 20 && i % 37 === 0)) {
+      const at = await squareAt(floor, column, row);
+      const seen = await page.evaluate(`(() => { const k = window.kept.painted; const s = k.width / document.getElementById('canvas').clientWidth; const o = 4 * (Math.round(${at[1]} * s) * k.width + Math.round(${at[0]} * s)); return [...k.data.slice(o, o + 3)]; })()`);
+      // Blue behind the face, red before it; a wall or an edge may stand before the square.
+      if (Math.max(...seen) - Math.min(...seen) < 12) continue;
+      assert.equal(seen[0] > seen[2], value > 0, `square ${column}, ${row}: ${value / 10} mm is ${seen}`);
+      checked += 1;
+    }
+    measured.squares = checked;
+    assert.ok(checked >= 5, `${checked} squares were seen`);
+    await page.evaluate("document.getElementById('canvas').focus()");
+    await page.key('Escape');
+    await keep('unpainted');
+    assert.equal((await difference('plain', 'unpainted')).count, 0);
+    await checkbox('residuals on faces');
+    await keep('all');
+    assert.ok((await legend()).includes('no points'), await legend());
+    assert.ok((await difference('plain', 'all')).count > 20000, 'the switch paints nothing');
+    assert.equal(await page.evaluate("document.getElementById('canvas').dataset.calls"), String(measured.calls), 'painting takes no draw call');
+    await checkbox('residuals on faces');
+    await keep('again');
+    assert.equal((await difference('plain', 'again')).count, 0);
+  }
+
+  /** A row of walls.csv chooses the wall's faces; a face chooses its row. */
+  async function checkWalls(building) {
+    const rows = readFileSync(join(dirname(file), 'walls.csv'), 'utf8').trim().split(/\r?\n/).map((line) => line.split(','));
+    const [name, faces] = ['name', 'faces'].map((column) => rows[0].indexOf(column));
+    const index = rows.slice(1).findIndex((row) => row[faces].split(' ').length === 2);
+    const own = rows[index + 1][faces].split(' ').map(Number);
+    await view('Top');
+    await keep('before');
+    await press('[data-table=walls]');
+    await press(`#tables tr[data-of="wall ${index}"]`);
+    assert.equal(await chosen(), `wall ${index}`);
+    assert.equal((await text('#chosen h3')).toLowerCase(), rows[index + 1][name]);
+    for (const f of own) assert.ok((await text('#chosen')).includes(`face ${f}`), `${f}: ${await text('#chosen')}`);
+    assert.equal(await count('#chosen .heat'), own.filter((f) => building.faces[f].observed > 0.05).length);
+    await keep('after');
+    assert.ok((await difference('before', 'after')).count > 30, 'the wall is not shown');
+    await page.evaluate(`[...document.querySelectorAll('#chosen .link')].find((b) => b.textContent.startsWith('face ${own[1]}')).click()`);
+    assert.equal(await chosen(), `face ${own[1]}`);
+    assert.equal(await text('#tables tr.chosen td'), rows[index + 1][name], 'the face does not choose its wall');
+    await press('[data-table=accuracy]');
+    await press(`#tables tr[data-of="face ${own[0]}"]`);
+    await page.evaluate(`[...document.querySelectorAll('#chosen .link')].find((b) => b.textContent.startsWith(${JSON.stringify(rows[index + 1][name])})).click()`);
+    assert.equal(await chosen(), `wall ${index}`);
+    assert.equal(await count('#tables tr.chosen'), 2, 'both faces of the wall, in accuracy.csv');
+  }
+
+  /** Without a mouse: the camera turns, moves and zooms, tables and plan are gone through; Escape leaves what is typed. */
+  async function checkKeys() {
+    await page.evaluate("document.getElementById('canvas').focus()");
+    for (const key of ['ArrowLeft', 'ArrowUp', '+', '-']) {
+      const before = await frames();
+      await page.key(key);
+      await settled();
+      assert.ok(await frames() > before, key);
+    }
+    await view('Top');
+    await settled();
+    await page.key('Escape');
+    await page.key('Enter');
+    await settled();
+    assert.match(await chosen(), /^(face|opening) /, 'Enter chooses nothing');
+    await page.evaluate("document.querySelector('#tab-accuracy').focus()");
+    await page.key('ArrowRight');
+    assert.equal(await page.evaluate("document.querySelector('.tab[aria-selected=true]').dataset.table"), 'rooms');
+    await page.evaluate("document.querySelector('#tables tbody tr').focus()");
+    await page.key('Enter');
+    assert.equal(await chosen(), 'room 0');
+    await page.evaluate("(() => { const d = document.querySelector('details[data-action=Rename]'); d.open = true; const i = d.querySelector('input'); i.value = 'half'; i.focus(); })()");
+    await page.key('Escape');
+    assert.equal(await chosen(), 'room 0', 'Escape in a field unchooses');
+    assert.equal(await page.evaluate("document.querySelector('details[data-action=Rename] input').value"), 'half');
+    const unnamed = await page.evaluate("[...document.querySelectorAll('button, input, select, canvas, summary')].filter((e) => !(e.textContent.trim() || e.getAttribute('aria-label') || e.closest('label')?.textContent.trim())).map((e) => e.outerHTML)");
+    assert.deepEqual(unnamed, [], 'without a name');
   }
 
   async function checkOpenings(building) {
@@ -236,22 +376,30 @@ try {
     await fill('Move the wall', { by: '1,5 cm' });
     assert.equal(await listed(), 1);
     await press('[data-table=accuracy]');
-    if (free >= 0) {
-      await press(`#tables tr[data-of="face ${free}"]`);
-      await fill('Add a door or window', { kind: 'window', width: '80 cm', height: '1 m', distance: '0.3 m', sill: '' });
-      assert.ok((await text('details[data-action="Add a door or window"] .wrong')).includes('needs its sill'));
-      await fill('Add a door or window', { kind: 'window', width: '80 cm', height: '1 m', distance: '0.3 m', sill: '0.9' });
-    }
+    assert.ok(free >= 0, 'no outer wall without openings');
+    await press(`#tables tr[data-of="face ${free}"]`);
+    await fill('Add a door or window', { kind: 'window', width: '80 cm', height: '1 m', distance: '0.3 m', sill: '', corner: 'right' });
+    assert.ok((await text('details[data-action="Add a door or window"] .wrong')).includes('needs its sill'));
+    await fill('Add a door or window', { kind: 'window', width: '80 cm', height: '1 m', distance: '0.3 m', sill: '0.9', corner: 'right' });
+    await fill('Set the thickness of this outer wall', { thickness: '3 m' });
+    assert.ok((await text('details[data-action="Set the thickness of this outer wall"] .wrong')).includes('not between'));
+    await fill('Set the thickness of this outer wall', { thickness: '36 cm' });
     await press('[data-table=rooms]');
     await press('#tables tr[data-of="room 1"]');
     await fill('Rename', { name: building.rooms[0].name });
     assert.ok((await text('details[data-action="Rename"] .wrong')).includes('already'));
-    await fill('Rename', { name: 'Küche "Süd"' });
+    await fill('Rename', { name: NAME });
+    assert.equal(await page.evaluate('window.intruder'), undefined);
+    await fill("Set the floor's level", { level: '', by: '' });
+    assert.ok((await text('details[data-action="Set the floor\'s level"] .wrong')).includes('one of them'));
     await fill("Set the ceiling's height", { height: '2.55 m' });
+    await splitRoom(building, [0, 1, building.faces[free].room]);
     await press('[data-table=doors]');
     await press('#tables tbody tr[data-of]');
-    await fill('Change', { width: '0.85 m' });
-    const all = free >= 0 ? 5 : 4;
+    await fill('Change', { width: '0.85 m', by: '1 cm', distance: '1 m' });
+    assert.ok((await text('details[data-action="Change"] .wrong')).includes('give one of them'));
+    await fill('Change', { width: '0.85 m', by: '', distance: '' });
+    const all = 7;
     assert.equal(await listed(), all);
     // One is taken back.
     await fill('Change', { height: '1.9 m' });
@@ -267,6 +415,46 @@ try {
     renameSync(saved, corrections);
     rmSync(folder, { recursive: true });
     measured.corrections = all;
+  }
+
+  /** Splits a rectangular room of others than these by two places that are picked on its floor, away from its openings. */
+  async function splitRoom(building, taken) {
+    const { up } = building;
+    const level = (p) => p;  // z is up in the simulated scans
+    assert.ok(up[2] > 0.999);
+    for (const [index, room] of building.rooms.entries()) {
+      if (taken.includes(index) || room.outline.length !== 4 || room.holes?.length) continue;
+      const corner = level(room.outline[0]);
+      for (const [to, aside] of [[1, 3], [3, 1]]) {
+        // Across the side to `to`, at a share of it, between 0.3 and 0.7 of the room's other side.
+        const [side, depth] = [to, aside].map((k) => room.outline[k].map((v, i) => v - corner[i]));
+        const length = Math.hypot(...side);
+        const along = (p) => p.reduce((sum, v, i) => sum + (v - corner[i]) * side[i], 0) / length;
+        const blocked = building.openings.filter((o) => o.room_a === index || o.room_b === index)
+          .map((o) => o.outline_a.concat(o.outline_b).map(along)).map((all) => [Math.min(...all) - 0.15, Math.max(...all) + 0.15]);
+        const at = [0.5, 0.4, 0.6, 0.3, 0.7].map((share) => share * length).find((s) => blocked.every(([low, high]) => s < low || s > high));
+        if (at === undefined) continue;
+        const place = (share) => corner.map((v, i) => v + building.origin[i] + (at / length) * side[i] + share * depth[i]);
+        await press('[data-table=rooms]');
+        await press(`#tables tr[data-of="room ${index}"]`);
+        await view('Top');
+        for (const [key, share] of [['from', 0.35], ['to', 0.65]]) {
+          await page.evaluate(`(() => { const d = document.querySelector('details[data-action="Split along a line"]'); d.open = true; d.querySelector('[name=${key}]').closest('.picked').querySelector('button').click(); })()`);
+          assert.ok((await text('.stage-message')).includes('Click the place'));
+          const [x, y] = await page.evaluate(`(() => { const f = document.getElementById('canvas').getBoundingClientRect(); const p = document.getElementById('canvas').placeOf(${JSON.stringify(place(share))}); return [f.x + p[0], f.y + p[1]]; })()`);
+          await click(x, y);
+          const typed = (await page.evaluate(`document.querySelector('details[data-action="Split along a line"] [name=${key}]').value`)).split(', ').map(Number);
+          assert.equal(typed.length, 2);
+          assert.ok(Math.hypot(typed[0] - place(share)[0], typed[1] - place(share)[1]) < 0.1, `${typed} is not ${place(share)}`);
+          assert.equal(await chosen(), `room ${index}`, 'picking chooses');
+        }
+        await fill('Split along a line', { left: 'part', right: 'part' });
+        assert.ok((await text('details[data-action="Split along a line"] .wrong')).includes('one name'));
+        await fill('Split along a line', { left: 'left part', right: 'right part' });
+        return;
+      }
+    }
+    assert.fail('no room can be split');
   }
 
   /** Frames while the camera moves: until their pixels are there, and what of that this page's own program takes. */

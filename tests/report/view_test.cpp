@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
+#include "graph/report/thinned_points.hpp"
 #include "tests/support/lacking.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -94,6 +96,141 @@ TEST(ViewParts, NeverComeFromOutsideOfTheRunsFolder) {
   EXPECT_TRUE(view.files.empty());
 }
 
+TEST(ViewParts, NameTheNodeThatWroteThem) {
+  const TemporaryFolder folder;
+  make_run(folder / "run", {{"model.ply", "1"}});
+  EXPECT_EQ(packed(folder / "run", {{"model", {"model.ply"}, "x.y"}}).parts[0].node, "n");
+  json manifest = json::parse(read_text(folder / "run/manifest.json"));
+  manifest["nodes"][0]["artefacts"] = json::array();
+  write_text(folder / "run/manifest.json", manifest.dump());
+  write_text(folder / "run/model.ply", "1");
+  for (const auto& part : packed(folder / "run", {{"model", {"model.ply"}, "x.y"}}).parts) EXPECT_EQ(part.node, "");
+}
+
+/// A GLB file of points: places and colours, each of three 16-bit numbers in rows of 8 bytes; in two tiles.
+std::string glb_of_points(std::size_t first, std::size_t second, const std::string& more = {}) {
+  std::string bytes;
+  const auto number = [](std::string& to, std::size_t value, int size) {
+    for (int i = 0; i < size; ++i) to += static_cast<char>((value >> (8 * i)) & 255U);
+  };
+  std::uint32_t state = 1;
+  for (const std::size_t what : {0, 1})  // a colour says which place is its own
+    for (std::size_t i = 0; i < first + second; ++i) {
+      for (int k = 0; k < 2; ++k)
+        number(bytes, what == 0 ? (state = state * 1664525U + 1013904223U) >> 16U : i >> (8 * k), 2);
+      number(bytes, i, 2);
+      number(bytes, 0, 2);
+    }
+  const auto accessor = [&](int view, std::size_t from, std::size_t count) {
+    return json{
+        {"bufferView", view}, {"byteOffset", 8 * from}, {"componentType", 5123}, {"type", "VEC3"}, {"count", count}};
+  };
+  const std::size_t half = 8 * (first + second);
+  json description{
+      {"asset", {{"version", "2.0"}}},
+      {"nodes", {{{"mesh", 0}}, {{"mesh", 1}}}},
+      {"meshes",
+       {{{"primitives", {{{"mode", 0}, {"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}}}}}},
+        {{"primitives", {{{"mode", 0}, {"attributes", {{"POSITION", 2}, {"COLOR_0", 3}}}}}}}}},
+      {"accessors",
+       {accessor(0, 0, first), accessor(1, 0, first), accessor(0, first, second), accessor(1, first, second)}},
+      {"bufferViews",
+       {{{"buffer", 0}, {"byteLength", half}, {"byteStride", 8}},
+        {{"buffer", 0}, {"byteOffset", half}, {"byteLength", half}, {"byteStride", 8}}}},
+      {"buffers", {{{"byteLength", 2 * half}}}}};
+  if (!more.empty()) description["meshes"][0]["primitives"][0].merge_patch(json::parse(more));
+  std::string text = description.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  std::string glb;
+  for (const std::size_t n :
+       {std::size_t{0x46546c67}, std::size_t{2}, 28 + text.size() + bytes.size(), text.size(), std::size_t{0x4e4f534a}})
+    number(glb, n, 4);
+  glb += text;
+  number(glb, bytes.size(), 4);
+  number(glb, 0x004e4942, 4);
+  return glb + bytes;
+}
+
+/// Its accessors' rows, as numbers.
+std::vector<std::vector<std::array<unsigned, 3>>> rows_of(const std::string& glb) {
+  const auto number = [&](std::size_t at, int size) {
+    std::size_t value = 0;
+    for (int i = size; i-- > 0;)
+      value = value << 8U | static_cast<unsigned char>(glb.at(at + static_cast<std::size_t>(i)));
+    return value;
+  };
+  EXPECT_EQ(number(8, 4), glb.size());
+  const std::size_t length = number(12, 4);
+  const json description = json::parse(glb.substr(20, length));
+  EXPECT_EQ(number(20 + length, 4), description["buffers"][0]["byteLength"]);
+  std::vector<std::vector<std::array<unsigned, 3>>> result;
+  for (const auto& accessor : description["accessors"]) {
+    const json& view = description["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    const std::size_t offset = accessor["byteOffset"], count = accessor["count"];
+    EXPECT_LE(offset + 8 * count, view["byteLength"].get<std::size_t>());
+    auto& rows = result.emplace_back();
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t at = 28 + length + view.value("byteOffset", std::size_t{0}) + offset + 8 * i;
+      rows.push_back({static_cast<unsigned>(number(at, 2)), static_cast<unsigned>(number(at + 2, 2)),
+                      static_cast<unsigned>(number(at + 4, 2))});
+    }
+  }
+  return result;
+}
+
+TEST(ThinnedPoints, KeepTheirAttributesAndAreSpreadOverTheFile) {
+  const std::string glb = glb_of_points(6000, 2000);
+  const auto whole = rows_of(glb);
+  const auto thinned = report::thinned_points(glb, 0.25);
+  ASSERT_TRUE(thinned);
+  EXPECT_EQ(thinned->points, 2000U);
+  EXPECT_EQ(thinned->of, 8000U);
+  EXPECT_EQ(thinned->glb, report::thinned_points(glb, 0.25)->glb);
+  const auto rows = rows_of(thinned->glb);
+  ASSERT_EQ(rows.size(), 4U);
+  for (const std::size_t tile : {0, 2}) {
+    ASSERT_EQ(rows[tile].size(), tile == 0 ? 1500U : 500U);
+    ASSERT_EQ(rows[tile + 1].size(), rows[tile].size());
+    for (std::size_t i = 0; i < rows[tile].size(); ++i) {
+      const unsigned number = rows[tile][i][2], in_tile = number - (tile == 0 ? 0 : 6000);
+      EXPECT_EQ(rows[tile + 1][i][2], number) << "a place with another one's colour";
+      EXPECT_EQ(rows[tile][i], whole[tile][in_tile]);
+      EXPECT_EQ(in_tile / 4, i) << "one of each four";
+    }
+  }
+  EXPECT_EQ(report::thinned_points(glb, 1e-9)->points, 2U) << "one of each tile";
+}
+
+TEST(ThinnedPoints, LeaveOtherFilesAlone) {
+  const std::string glb = glb_of_points(50, 50);
+  EXPECT_TRUE(report::thinned_points(glb, 0.5));
+  EXPECT_FALSE(report::thinned_points("ply\n", 0.5));
+  EXPECT_FALSE(report::thinned_points("", 0.5));
+  EXPECT_FALSE(report::thinned_points(glb.substr(0, glb.size() - 8), 0.5)) << "cut short";
+  EXPECT_FALSE(report::thinned_points(glb_of_points(50, 50, R"({"mode": 4})"), 0.5)) << "triangles";
+  EXPECT_FALSE(report::thinned_points(glb_of_points(50, 50, R"({"indices": 1})"), 0.5));
+  EXPECT_FALSE(report::thinned_points(glb_of_points(50, 50, R"({"attributes": {"COLOR_0": 3}})"), 0.5)) << "shared";
+}
+
+TEST(ViewParts, ThinPointsUntilTheyHaveRoom) {
+  const TemporaryFolder folder;
+  make_run(folder / "run", {{"scan.glb", glb_of_points(60'000, 60'000)}, {"plan.svg", "<svg/>"}});
+  const std::vector<report::ViewWish> wishes{{"plan", {"plan.svg"}, "a.b"}, {"scan", {"scan.glb"}, "a.b"}};
+  const auto whole = packed(folder / "run", wishes, 10'000'000);
+  EXPECT_TRUE(whole.parts[1].note.empty());
+  const std::size_t size = whole.files[1].base64.size();
+  const auto thinned = packed(folder / "run", wishes, size / 3);
+  ASSERT_EQ(thinned.files.size(), 2U);
+  EXPECT_LE(thinned.files[0].base64.size() + thinned.files[1].base64.size(), size / 3);
+  EXPECT_GT(thinned.files[1].base64.size(), size / 4) << "more points had room";
+  EXPECT_NE(thinned.parts[1].note.find("of its 120000 points are in the page"), std::string::npos)
+      << thinned.parts[1].note;
+  EXPECT_EQ(packed(folder / "run", wishes, size / 3).files[1].base64, thinned.files[1].base64);
+  const auto none = packed(folder / "run", wishes, 2000);
+  EXPECT_EQ(none.files.size(), 1U) << "a handful of points is no scan";
+  EXPECT_NE(none.parts[1].lacking.find("--max-size gives more"), std::string::npos);
+}
+
 TEST(ViewPage, WithoutItsWishesIsRefused) {
   EXPECT_THROW(report::read_wishes("<html></html>", "page"), Error);
   const std::string open = "<script type=\"application/json\" id=\"wishes\">";
@@ -153,7 +290,12 @@ TEST_F(View, RefusesWhatIsNoRun) {
 }
 
 TEST_F(View, OfARunWithoutItsFilesSaysWhatIsLackingAndWhoWritesIt) {
-  make_run(folder / "run", {{"building.json", "{\"atrium_building\": 1, \"vertices\": [[NaN"},
+  const std::string two_storeys =
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty double x\nproperty double y\nproperty double z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nproperty uchar class\nproperty int storey\n"
+      "property int primitive\nend_header\n0 0 0\n4 0 0\n0 3 0\n0 0 3\n4 0 3\n0 3 3\n3 0 1 2 2 0 0\n3 3 4 5 2 1 1\n";
+  make_run(folder / "run", {{"building.json", "{\"atrium_building\": 1, \"vertices\": []}"},
+                            {"scene.ply", two_storeys},
                             {"scan.glb", "glTF"},
                             {"rooms.csv", "number,name\n0,\"a </script><script>window.intruder = 1</script>\"\n"}});
   const auto result = atrium({"view", "run", "--json"}, folder.path());
@@ -162,10 +304,37 @@ TEST_F(View, OfARunWithoutItsFilesSaysWhatIsLackingAndWhoWritesIt) {
             std::string::npos)
       << result.err;
   const json written = json::parse(result.out);
-  EXPECT_EQ(written.at("parts").size(), 3U);
+  EXPECT_EQ(written.at("parts").size(), 4U);
   EXPECT_EQ(written.at("bytes"), fs::file_size(folder / "run/view.html"));
   EXPECT_EQ(read_text(folder / "run/view.html").find("window.intruder = 1</script>"), std::string::npos);
   expect_works_in_browser({(folder / "run/view.html").string(), "lacking"});
+}
+
+TEST_F(View, KeepsToItsSizeAndRefusesLessThanThePageItselfTakes) {
+  make_run(folder / "run", {{"scan.glb", glb_of_points(60'000, 60'000)}});
+  const auto refused = atrium({"view", "run", "--max-size", "0.1"}, folder.path());
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("without any file of the run, --max-size allows 0.10 MB"), std::string::npos)
+      << refused.err;
+  EXPECT_FALSE(fs::exists(folder / "run/view.html"));
+  const auto least = refused.err.find("--max-size ", refused.err.find('\n'));
+  ASSERT_NE(least, std::string::npos) << refused.err;
+  // What it says would do does; and a page is never larger than was allowed.
+  std::string words = refused.err.substr(least + 11);
+  words = words.substr(0, words.find(' '));
+  std::size_t before = 0;
+  for (const std::string& size :
+       {words, fmt::format("{}", std::stod(words) + 0.2), fmt::format("{}", std::stod(words) + 0.5)}) {
+    const auto result = atrium({"view", "run", "--max-size", size, "--json"}, folder.path());
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json written = json::parse(result.out);
+    const std::size_t bytes = written.at("bytes");
+    EXPECT_EQ(bytes, fs::file_size(folder / "run/view.html"));
+    EXPECT_LE(static_cast<double>(bytes), 1e6 * std::stod(size));
+    EXPECT_GT(bytes, before) << "more points have room";
+    EXPECT_EQ(written.at("notes").size(), 1U) << written;
+    before = bytes;
+  }
 }
 
 TEST_F(View, OfAScannedFlatWorksInABrowserAndWritesCorrections) {
@@ -180,7 +349,11 @@ TEST_F(View, OfAScannedFlatWorksInABrowserAndWritesCorrections) {
     command.insert(command.end(), more.begin(), more.end());
     return atrium(command, folder.path());
   };
-  ASSERT_EQ(run("flat", {}).exit_code, 0);
+  // The model is written by a node whose name says nothing, in feet: the page has both from the manifest.
+  ASSERT_EQ(run("flat", {"-s", "write_scene.path=other.ply", "-s", "write_structure.path=scene.ply", "-s",
+                         "write_structure.unit=ft"})
+                .exit_code,
+            0);
   const auto result = atrium({"view", "flat", "--json"}, folder.path());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json written = json::parse(result.out);
@@ -202,8 +375,16 @@ TEST_F(View, OfAScannedFlatWorksInABrowserAndWritesCorrections) {
                          [](const json& o) { return o["kind"] == "window"; });
   };
   EXPECT_EQ(windows(after), windows(before) + 1);
-  const auto named = [&](const json& room) { return room["name"] == "Küche \"Süd\""; };
-  EXPECT_TRUE(std::any_of(after["rooms"].begin(), after["rooms"].end(), named));
+  const auto named = [&](const std::string& beginning) {
+    return std::count_if(after["rooms"].begin(), after["rooms"].end(),
+                         [&](const json& room) { return room["name"].get<std::string>().starts_with(beginning); });
+  };
+  EXPECT_EQ(named("Küche \"Süd\" <script>"), 1);
+  EXPECT_EQ(named("left part") + named("right part"), 2);
+  EXPECT_EQ(after["rooms"].size(), before["rooms"].size() + 1);
+  const auto thick = [](const json& face) { return face.value("backing", 0.0) == 0.36; };
+  EXPECT_EQ(std::count_if(after["faces"].begin(), after["faces"].end(), thick), 1);
+  EXPECT_NE(read_text(folder / "corrected/walls.csv").find(",0.360,no,"), std::string::npos);
   // What is corrected already is not corrected by its new numbers.
   ASSERT_EQ(atrium({"view", "corrected"}, folder.path()).exit_code, 0);
   expect_works_in_browser({(folder / "corrected/view.html").string(), "corrected"});

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "tests/support/box_building.hpp"
@@ -95,6 +97,41 @@ TEST_F(AccuracyTable, SaysWhatMeetsTheBandThatIsAskedFor) {
   EXPECT_EQ(table[1].substr(table[1].size() - 8), "LOA20,no");
   EXPECT_EQ(table[3].substr(table[3].size() - 9), "LOA40,yes");
   EXPECT_NEAR(value(metrics, "accuracy.area.meets"), 10.0 / 59, 1e-9);
+}
+
+TEST_F(AccuracyTable, TheSquaresAreThereForProgramsWithTheirPlaces) {
+  // Of the wall y = 0, seen from y > 0: 20 mm before it at x 0.5 … 1.5, 3 mm behind it at x 3; one point at its far
+  // corner.
+  for (int i = 0; i < 10; ++i) point(0.55 + 0.1 * i, 0.02, 1.05);
+  point(3.05, -0.003, 0.05);
+  point(3.95, 0.001, 2.45);
+  run();
+  const auto json = nlohmann::json::parse(std::ifstream(host->folder / "heat_maps.json"));
+  EXPECT_EQ(json["atrium_heat_maps"], 1);
+  EXPECT_EQ(json["cell"], 0.1);
+  EXPECT_EQ(json["range"], 0.02);
+  ASSERT_EQ(json["faces"].size(), 1U) << "faces without points are left out";
+  const auto& face = json["faces"][0];
+  EXPECT_EQ(face["face"], 2);
+  const int columns = face["columns"], rows = face["rows"];
+  EXPECT_EQ(columns, 40);
+  EXPECT_EQ(rows, 25);
+  ASSERT_EQ(face["squares"].size(), 1000U);
+  std::map<std::string, int> found;  // by the place that the file says
+  for (int i = 0; i < 1000; ++i) {
+    if (face["squares"][i].is_null()) continue;
+    Eigen::Vector3d at;
+    for (int k = 0; k < 3; ++k)
+      at[k] = json["origin"][k].get<double>() + face["corner"][k].get<double>() +
+              0.1 * (i % columns + 0.5) * face["across"][k].get<double>() +
+              0.1 * (i / columns + 0.5) * face["up"][k].get<double>();
+    found[fmt::format("{:.2f} {:.2f} {:.2f}", at.x() - 1000, at.y(), at.z())] = face["squares"][i];
+  }
+  EXPECT_EQ(found.size(), 12U);
+  EXPECT_EQ(found.at("0.55 0.00 1.05"), 200);
+  EXPECT_EQ(found.at("1.45 0.00 1.05"), 200);
+  EXPECT_EQ(found.at("3.05 0.00 0.05"), -30);
+  EXPECT_EQ(found.at("3.95 0.00 2.45"), 10);
 }
 
 TEST_F(AccuracyTable, TheHeatMapShowsEachFaceAndItsSquares) {

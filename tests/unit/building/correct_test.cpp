@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "houses.hpp"
 #include "modules/building/corrections_file.hpp"
+#include "modules/building/elements.hpp"
 #include "modules/building/room_shell.hpp"
 #include "modules/layout/mesh.hpp"
 #include "modules/metric/validity.hpp"
@@ -301,6 +303,97 @@ Building with_pilaster(double depth) {
   return house.building;
 }
 
+const Wall& wall_of(const Elements& elements, const std::vector<std::int32_t>& faces) {
+  const auto found =
+      std::find_if(elements.walls.begin(), elements.walls.end(), [&](const Wall& w) { return w.faces == faces; });
+  if (found == elements.walls.end()) throw std::runtime_error("no such wall");
+  return *found;
+}
+
+TEST_F(Corrections, AnOuterWallGetsItsThickness) {
+  const Building before = BoxBuilding::two_rooms();
+  const Building result = corrected(before, "  - set_thickness: {room: room 1, face: 2, thickness: 36 cm}\n");
+  EXPECT_EQ(result.faces[2].backing, 0.36);
+  EXPECT_EQ(result.faces[2].corrections, std::vector<std::string>{"wall behind it set to 0.360 m"});
+  EXPECT_TRUE(result.faces[5].corrections.empty());
+  EXPECT_TRUE(says(room(result, "room 1"), "face 2 set to a thickness of 0.360 m"));
+  EXPECT_TRUE(room(result, "room 2").doubts.empty());
+  EXPECT_EQ(result.openings[1].thickness, 0.36) << "the window's wall";
+  EXPECT_NEAR(result.openings[0].thickness, 0.12, 1e-9);
+  expect_room(result, "room 1", 12, 30, 6);
+  // What is built of it follows; its neighbours keep the assumed thickness.
+  const Elements elements = elements_of(result, {}), old = elements_of(before, {});
+  EXPECT_FALSE(wall_of(elements, {2}).assumed);
+  EXPECT_EQ(wall_of(elements, {2}).thickness, 0.36);
+  EXPECT_TRUE(wall_of(elements, {5}).assumed);
+  EXPECT_EQ(wall_of(elements, {5}).thickness, 0.20);
+  EXPECT_GT(wall_of(elements, {2}).gross_volume(), 4 * 2.5 * 0.36 - 1e-9);
+  EXPECT_LT(wall_of(old, {2}).gross_volume(), 4.5 * 2.5 * 0.20);
+}
+
+TEST_F(Corrections, TheFarSideOfAGivenWallStaysWhenTheNearOneMoves) {
+  const std::string set = "  - set_thickness: {room: room 1, at: [0, 1.5], thickness: 0.36}\n";
+  EXPECT_NEAR(
+      corrected(BoxBuilding::two_rooms(), set + "  - move_wall: {room: room 1, face: 5, by: 5 cm}\n").faces[5].backing,
+      0.31, 1e-9);
+  EXPECT_NEAR(
+      corrected(BoxBuilding::two_rooms(), set + "  - move_wall: {room: room 1, face: 5, by: 5 cm, both: true}\n")
+          .faces[5]
+          .backing,
+      0.36, 1e-12);
+  EXPECT_EQ(refused(set + "  - move_wall: {room: room 1, face: 5, by: 0.36}\n"),
+            "4:44: that is too far: face 5 is 0.360 m thick there, by set_thickness | a smaller value; or `both: "
+            "true`, which moves the whole wall");
+}
+
+TEST_F(Corrections, AThicknessThatIsKnownOrHasNoRoomIsRefused) {
+  EXPECT_EQ(refused("  - set_thickness: {room: room 1, face: 3, thickness: 0.3}\n"),
+            "3:55: both faces of the wall behind face 3 are known: it is 0.120 m thick | move_wall moves one of them");
+  EXPECT_EQ(refused("  - set_thickness: {room: room 1, face: 5, thickness: 1 mm}\n"),
+            "3:55: 0.001 m is no thickness of a wall | 1 cm or more");
+  EXPECT_PRED2(begins_with, refused("  - set_thickness: {room: room 1, face: 0, thickness: 0.3}\n"),
+               "3:41: face 0 is a floor");
+  BoxBuilding b;
+  b.room(0, 0, 4, 3);
+  b.room(5, 0, 7, 3);
+  EXPECT_EQ(refused("  - set_thickness: {room: room 1, face: 3, thickness: 1.5}\n", b.building),
+            "3:55: so thick the wall would reach into 'room 2' | that room begins 1.00 m behind face 3");
+  EXPECT_EQ(corrected(b.building, "  - set_thickness: {room: room 1, face: 3, thickness: 0.9}\n").faces[3].backing,
+            0.9);
+  House house;
+  House::Plan plan = House::rectangle(0, 0, 6, 5);
+  plan.column = {{2, 2}, {2.4, 2}, {2.4, 2.4}, {2, 2.4}};
+  house.room(plan, 0, [](double, double) { return 2.5; });
+  EXPECT_PRED2(begins_with, refused("  - set_thickness: {room: room 1, face: 6, thickness: 0.3}\n", house.building),
+               "3:55: no wall is behind face 6: it is a step or a column");
+}
+
+TEST_F(Corrections, WhatWasCorrectedSaysSo) {
+  using Texts = std::vector<std::string>;
+  const Building moved =
+      corrected(BoxBuilding::two_rooms(),
+                "  - move_wall: {room: room 1, face: 4, by: 3 cm}\n"
+                "  - set_ceiling: {room: room 2, by: -5 cm}\n"
+                "  - change_opening: {opening: door 1, height: 2 m}\n"
+                "  - change_opening: {opening: window 1, kind: door}\n"
+                "  - add_opening: {room: room 1, face: 4, kind: window, distance: 1, width: 1, height: 1, sill: 1}\n");
+  EXPECT_EQ(moved.faces[4].corrections, Texts{"moved outwards by 0.030 m"});
+  EXPECT_EQ(moved.faces[7].corrections, Texts{"lowered by 0.050 m"});
+  for (const std::size_t f : {0, 1, 2, 3, 5, 6, 8, 9, 10, 11}) EXPECT_TRUE(moved.faces[f].corrections.empty()) << f;
+  EXPECT_EQ(moved.openings[0].corrections, Texts{"changed"});
+  EXPECT_EQ(moved.openings[1].corrections, Texts{"changed, was a window"});
+  EXPECT_EQ(moved.openings[2].corrections, Texts{"added"});
+  EXPECT_EQ(corrected(BoxBuilding::two_rooms(), "  - drop_opening: {opening: door 1}\n").faces[11].corrections,
+            Texts{"door 1 dropped"});
+  const Building split =
+      corrected(BoxBuilding::two_rooms(), "  - split_room: {room: room 2, from: [5, 0], to: [5, 1], names: [A, B]}\n");
+  std::map<std::string, int> told;
+  for (const auto& face : split.faces) ++told[face.corrections.empty() ? "" : face.corrections.front()];
+  // Of each part the floor, the ceiling and two walls are smaller, one is new and one as it was; room 1 is as it was.
+  EXPECT_EQ(told,
+            (std::map<std::string, int>{{"", 6 + 2}, {"new, by split_room", 2}, {"other shape, by split_room", 8}}));
+}
+
 TEST_F(Corrections, APilasterAndANicheAreDropped) {
   for (const double depth : {0.3, -0.3}) {
     const Building before = with_pilaster(depth);
@@ -360,8 +453,8 @@ TEST_F(Corrections, TheFileIsReadWithPlaces) {
             "3:5: 'move_wall' needs exactly one of wall, face, at | 2 of them are given");
   EXPECT_PRED2(begins_with, refused("  - move_wall: {room: room 1, at: [1, far], by: 1 m}\n"),
                "3:39: 'far' is not a number, and 'a");
-  EXPECT_PRED2(begins_with, refused("  - set_thickness: {room: room 1, thickness: 30 cm}\n"),
-               "3:5: unknown correction 'set_thickness' ");
+  EXPECT_EQ(refused("  - set_thickness: {room: room 1, thickness: 30 cm}\n"),
+            "3:5: 'set_thickness' needs exactly one of wall, face, at | 0 of them are given");
   EXPECT_EQ(refused("  - change_opening: {opening: door 1}\n"),
             "3:5: 'change_opening' changes nothing | give one of kind, distance, by, width, height, sill");
   EXPECT_EQ(refused("  - drop_opening: door 1\n"),

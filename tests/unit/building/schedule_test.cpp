@@ -110,6 +110,27 @@ TEST_F(Schedules, DoorsAndWindowsNameTheirRoomsAndWalls) {
   }
 }
 
+TEST_F(Schedules, WallsNameTheirFacesAndWhatWasCorrected) {
+  Building building = BoxBuilding::two_rooms();
+  building.faces[2].backing = 0.36;
+  building.faces[2].corrections = {"wall behind it set to 0.360 m"};
+  building.openings[0].corrections = {"changed"};
+  write(building);
+  std::map<std::string, std::string> thickness, corrected, assumed;
+  for (const auto& wall : rows("walls.csv")) {
+    thickness[wall.at("faces")] = wall.at("thickness_m");
+    corrected[wall.at("faces")] = wall.at("corrected");
+    assumed[wall.at("faces")] = wall.at("thickness_assumed");
+  }
+  EXPECT_EQ(thickness.size(), 7U) << "each wall has its own faces";
+  EXPECT_EQ(thickness.at("2"), "0.360");
+  EXPECT_EQ(assumed.at("2") + corrected.at("2"), "noyes");
+  EXPECT_EQ(thickness.at("3 11"), "0.120");
+  EXPECT_EQ(assumed.at("5") + corrected.at("5"), "yesno");
+  EXPECT_EQ(rows("doors.csv")[0].at("corrected"), "yes");
+  EXPECT_EQ(rows("windows.csv")[0].at("corrected"), "no");
+}
+
 TEST_F(Schedules, OfNothingThereAreNoRows) {
   write(Building{});
   for (const auto* name : {"rooms.csv", "doors.csv", "windows.csv", "walls.csv"}) EXPECT_TRUE(rows(name).empty());

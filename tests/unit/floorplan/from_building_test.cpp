@@ -82,6 +82,25 @@ TEST(FromBuilding, WallsOfWhichNothingWasSeenAreInferredAndNoBodies) {
   EXPECT_FALSE(drawn(building).storeys.at(0).bodies.empty());
 }
 
+TEST(FromBuilding, AWallWhoseThicknessWasGivenIsABodyAndIsMarked) {
+  Building building = test::BoxBuilding::two_rooms();
+  building.faces[2].backing = 0.36;  // the first room's wall y = 0, with the window
+  building.faces[2].corrections = {"wall behind it set to 0.360 m"};
+  building.openings[1].thickness = 0.36;
+  building.openings[1].corrections = {"changed"};
+  building.faces[7].corrections = {"raised by 0.100 m"};
+  const PlanStorey storey = drawn(building).storeys.at(0);
+  EXPECT_GT(total_area(storey.bodies), 0.12 * (3 - 0.9) + 0.36 * (4 - 1.5) - 1e-4);
+  EXPECT_EQ(std::count_if(storey.walls.begin(), storey.walls.end(), [](const PlanWall& w) { return w.corrected; }), 2)
+      << "on both sides of the window";
+  for (const auto& wall : storey.walls) EXPECT_EQ(wall.corrected, std::abs(wall.thickness - 0.36) < 1e-9);
+  EXPECT_FALSE(first(storey, "door").corrected);
+  EXPECT_TRUE(first(storey, "window").corrected);
+  EXPECT_NEAR((PlanPolygon{first(storey, "window").outline, {}}.area()), 1.5 * 0.36, 1e-9);
+  EXPECT_FALSE(storey.rooms[0].corrected) << "its wall has the mark";
+  EXPECT_TRUE(storey.rooms[1].corrected);
+}
+
 TEST(FromBuilding, OpeningsInterruptTheWalls) {
   const FloorPlan plan = drawn(test::BoxBuilding::two_rooms());
   const PlanStorey& storey = plan.storeys[0];

@@ -189,7 +189,7 @@ TEST_F(Svg, DoorsTurnIntoRoomsAndWideOnesHaveTwoLeavesOrNone) {
 
 TEST_F(Svg, NamesRoomsWithAreaAndHeight) {
   const std::string svg = write(plan_of(two_rooms()));
-  for (const auto* text : {"Room 1", "Room 2", "h 2.50 m", "4.00", "0.12", "2.88", "3.00", "7.00", "N", "Floor plan"})
+  for (const auto* text : {"Room 1", "Room 2", "h 2.50 m", "4.00", "0.12", "2.88", "3.00", "7.00", "y", "Floor plan"})
     EXPECT_TRUE(has_text(svg, text)) << text;
   EXPECT_TRUE(has_text(svg, "12.00 m\u00B2"));
   EXPECT_TRUE(has_text(svg, "8.64 m\u00B2"));
@@ -401,6 +401,33 @@ TEST_F(Svg, WhatIsDoubtfulIsMarked) {
   const auto all = texts(svg);
   EXPECT_EQ(std::count(all.begin(), all.end(), "confidence 0.37"), 1);
   EXPECT_EQ(std::count(all.begin(), all.end(), "confidence 0.90"), 0);
+}
+
+TEST_F(Svg, WhatWasCorrectedHasAMarkAndALegend) {
+  PlanStorey storey;
+  storey.rooms = {{"room 1", {{{0, 0}, {6, 0}, {6, 5}, {0, 5}}, {}}, 2.5, 0.9}};
+  PlanWall wall;
+  wall.to = {6, 0};
+  storey.walls = {wall};
+  PlanOpening window;
+  window.kind = "window";
+  window.from = {2, 5};
+  window.to = {1, 5};
+  storey.openings = {window};
+  FloorPlan plan;
+  plan.storeys = {storey};
+  EXPECT_EQ(write(plan).find("corrected"), std::string::npos);
+  plan.storeys[0].walls[0].corrected = plan.storeys[0].openings[0].corrected = plan.storeys[0].rooms[0].corrected =
+      true;
+  const std::string svg = write(plan);
+  const auto marks = [](const std::string& text) {
+    int count = 0;
+    for (auto at = text.find("#d6006c"); at != std::string::npos; at = text.find("#d6006c", at + 1)) ++count;
+    return count;
+  };
+  EXPECT_EQ(marks(svg), 4) << "a wall, an opening, a room, the legend";
+  const auto all = texts(svg);
+  EXPECT_EQ(std::count(all.begin(), all.end(), "corrected by hand"), 1);
 }
 
 }  // namespace

@@ -109,6 +109,23 @@ TEST_F(BuildingFile, KeepsConfidenceAndDoubtsAndLeavesThemOutWhereNobodyHasJudge
   EXPECT_NE(error_of(root).find("is not between 0 and 1"), std::string::npos);
 }
 
+TEST_F(BuildingFile, KeepsWhatWasCorrected) {
+  Building building = test::BoxBuilding::two_rooms();
+  json root = write(building);
+  EXPECT_FALSE(root["faces"][2].contains("backing") || root["faces"][2].contains("corrections") ||
+               root["openings"][0].contains("corrections") || root["rooms"][0].contains("doubts"));
+  building.faces[2].backing = 0.36;
+  building.faces[2].corrections = {"wall behind it set to 0.360 m", "moved outwards by 0.010 m"};
+  building.openings[0].corrections = {"changed"};
+  building.rooms[0].doubts = {"corrected by hand: face 2 set to a thickness of 0.360 m"};  // nobody has judged it
+  root = write(building);
+  EXPECT_EQ(root["faces"][2]["backing"], 0.36);
+  EXPECT_EQ(root["faces"][2]["corrections"].size(), 2U);
+  EXPECT_EQ(content_hash(read().building), content_hash(building));
+  root["faces"][2]["backing"] = -1;
+  EXPECT_NE(error_of(root).find("is below 0"), std::string::npos);
+}
+
 TEST_F(BuildingFile, StandsInTheInputsFrame) {
   const Building building = test::BoxBuilding::two_rooms();
   Transform transform;  // from a tilted scan, far away

@@ -76,7 +76,7 @@ TEST_F(Text, NamesWhatIsWrongAndWhere) {
   EXPECT_CONTAINS(failure("1 2 3\n4 5 six\n7 8 9\n"), "a.xyz:2: 'six' is not a number");
   EXPECT_CONTAINS(failure("# nothing\n\n"), "no points");
   EXPECT_CONTAINS(failure(std::string("1 2\0003", 5)), "not a text file");
-  EXPECT_CONTAINS(failure("1 2 3\n"), "only 1 points");
+  EXPECT_CONTAINS(failure("1 2 3\n"), "only 1 point");
   EXPECT_CONTAINS(failure("1 2 3\n", "a.docx"), "unknown format '.docx'");
 }
 

@@ -1,8 +1,18 @@
 // building.json in the page's frame, with the names that the schedules give to doors and windows.
 import { boxOf } from './frame.js';
 
-export function readBuilding(json, frame) {
+/** Throws what is wrong in words that a reader of the page understands. */
+export function checkBuilding(json) {
+  if (json === null || typeof json !== 'object' || json.atrium_building === undefined) throw new Error('it is no building: it has no "atrium_building"');
   if (json.atrium_building !== 1) throw new Error('it is of another version of the format');
+  for (const list of ['storeys', 'rooms', 'faces', 'openings', 'walls', 'vertices']) if (!Array.isArray(json[list])) throw new Error(`its list "${list}" is missing`);
+  json.faces.forEach((face, index) => {
+    if (!Array.isArray(face.outline) || face.outline.length < 3 || !face.outline.every((v) => json.vertices[v])) throw new Error(`the corners of face ${index} are missing`);
+  });
+}
+
+export function readBuilding(json, frame) {
+  checkBuilding(json);
   const vertices = json.vertices.map(frame.local);
   const ring = (indices) => indices.map((i) => vertices[i]);
   const faces = json.faces.map((face, index) => ({
@@ -35,8 +45,8 @@ export function readBuilding(json, frame) {
 
 export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
-/** "Wall 12". */
-export const faceName = (face) => `${face.class[0].toUpperCase()}${face.class.slice(1)} ${face.index}`;
+/** "face 12": walls are called "wall 3" in walls.csv, which have two of them. */
+export const faceName = (face) => `face ${face.index}`;
 export const roomName = (building, room) => building.rooms[room]?.name ?? 'outside, or not known';
 
 /** To the right as seen from the room; of a floor or ceiling any direction across. */

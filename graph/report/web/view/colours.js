@@ -17,6 +17,9 @@ export const distanceColour = (share) => between(COOL_WARM, (share + 1) / 2);
 
 const LOA = { LOA50: [0, 109, 91], LOA40: [44, 160, 119], LOA30: [150, 200, 120], LOA20: [240, 190, 80], LOA10: [205, 85, 40] };
 
+/** Whether anything of the building was corrected by hand. */
+export const isCorrected = (run) => [...(run.building?.faces ?? []), ...(run.building?.openings ?? [])].some((of) => of.corrections?.length > 0);
+
 /** What faces can be coloured by: per name [title, colour of a face, legend]. */
 export function faceColours(run) {
   const bands = new Map();
@@ -28,10 +31,17 @@ export function faceColours(run) {
     seen: ['share seen', (f) => (f.inferred ? [196, 92, 116] : between(CIVIDIS, f.observed)),
            { ramp: CIVIDIS, from: '0 % seen', to: '100 %', keys: [[[196, 92, 116], 'inferred']] }],
   };
+  if (isCorrected(run))
+    modes.corrected = ['corrected by hand', (f) => (f.corrections?.length ? CORRECTED : [222, 220, 214]), { keys: [[CORRECTED, 'corrected by hand']] }];
   if (bands.size > 0)
     modes.accuracy = ['accuracy (LOA)', (f) => LOA[bands.get(f.index)] ?? UNKNOWN,
                       { keys: [...Object.entries(LOA).map(([name, colour]) => [colour, { LOA50: '≤ 1 mm', LOA40: '≤ 5 mm', LOA30: '≤ 15 mm', LOA20: '≤ 50 mm', LOA10: '> 50 mm' }[name]]), [UNKNOWN, 'not known']], title: '95 % of points within' }];
   return modes;
 }
-export const DISTANCE_RANGE = 20;  // millimetres, as building.accuracy's heat map
-export const DISTANCE_LEGEND = { ramp: COOL_WARM, from: `${DISTANCE_RANGE} mm behind`, to: `${DISTANCE_RANGE} mm before`, keys: [[[90, 90, 90], 'on no face']] };
+/** Millimetres of the scale's ends: the heat maps', or building.accuracy's usual ones. */
+export const distanceRange = (run) => Math.round(1e4 * (run.heat?.range ?? 0.02)) / 10;
+const distanceLegend = (run, keys, title) => ({ title, ramp: COOL_WARM, from: `${distanceRange(run)} mm behind`, to: `${distanceRange(run)} mm before`, keys });
+export const pointLegend = (run) => distanceLegend(run, [[[90, 90, 90], 'on no face']], 'points');
+export const faceLegend = (run) => distanceLegend(run, [[NO_POINTS, 'no points']], 'scan from the face');
+export const NO_POINTS = [158, 156, 148];
+export const CORRECTED = [214, 0, 108];

@@ -1,6 +1,6 @@
 import { check, choice, h } from '../src/dom.js';
 import { makeChosen } from './chosen.js';
-import { DISTANCE_LEGEND } from './colours.js';
+import { CORRECTED, faceLegend, isCorrected, pointLegend } from './colours.js';
 import { makeCorrections } from './corrections.js';
 import { makeMeasuring } from './measuring.js';
 import { makePlan } from './plan.js';
@@ -50,7 +50,7 @@ function legendOf(legend) {
 
 /** The pane with the stage and its tools. */
 function makeStage(run, choose, alone) {
-  const canvas = h('canvas', { id: 'canvas', tabindex: '0', 'aria-label': 'Scan and model: drag turns, wheel zooms, right button moves, click chooses' });
+  const canvas = h('canvas', { id: 'canvas', tabindex: '0', 'aria-label': 'Scan and model: drag turns, wheel zooms, right button moves, click chooses. Keys: arrows turn, shift and arrows move, plus and minus zoom, enter chooses what is in the middle' });
   const labels = h('div', { class: 'labels' });
   const legend = h('div', { class: 'legend' });
   const message = h('p', { class: 'stage-message', role: 'status' });
@@ -68,11 +68,11 @@ function makeStage(run, choose, alone) {
   const { state } = space;
   const measuring = makeMeasuring(space, stage, canvas);
 
-  const modes = h('div', { class: 'segments', role: 'radiogroup', 'aria-label': 'What is shown' });
+  const modes = h('div', { class: 'segments', role: 'group', 'aria-label': 'What is shown' });
   const setMode = (mode) => {
     const before = state.mode;
     space.update({ mode });
-    for (const button of modes.children) button.setAttribute('aria-checked', String(button.dataset.mode === mode));
+    for (const button of modes.children) button.setAttribute('aria-pressed', String(button.dataset.mode === mode));
     labels.replaceChildren(...(mode === 'split' ? ['Scan', 'Model'] : [{ scan: 'Scan', model: 'Model', both: 'Scan and model' }[mode]]).map((text) => h('span', {}, text)));
     labels.classList.toggle('two', mode === 'split');
     if ((before === 'split') !== (mode === 'split')) space.look(null);
@@ -80,16 +80,22 @@ function makeStage(run, choose, alone) {
   const hasScan = run.data.parts.some((part) => part.part === 'scan' && part.path);
   const lacks = (mode) => (mode !== 'model' && !hasScan) || (mode !== 'scan' && !run.mesh);
   for (const [mode, text] of [['split', 'Side by side'], ['scan', 'Scan'], ['model', 'Model'], ['both', 'Both']])
-    modes.append(h('button', { type: 'button', role: 'radio', 'data-mode': mode, disabled: lacks(mode), onclick: () => setMode(mode) }, text));
+    modes.append(h('button', { type: 'button', 'data-mode': mode, disabled: lacks(mode), onclick: () => setMode(mode) }, text));
 
   const toggle = (text, key) => check(text, state[key], (on) => space.update({ [key]: on })).element;
-  const storeys = run.building && run.building.storeys.length > 1
-    ? h('div', { class: 'storeys', role: 'group', 'aria-label': 'Storeys' }, run.building.storeys.map((storey) => {
-      const box = check(`Storey ${storey.index}`, true, (on) => { if (on) state.storeys.add(storey.index); else state.storeys.delete(storey.index); space.draw(); });
-      box.input.dataset.storey = storey.index;
+  const storeys = run.storeys.length > 1
+    ? h('div', { class: 'storeys', role: 'group', 'aria-label': 'Storeys' }, run.storeys.map((storey) => {
+      const box = check(`Storey ${storey}`, true, (on) => { if (on) state.storeys.add(storey); else state.storeys.delete(storey); space.draw(); });
+      box.input.dataset.storey = storey;
       return box.element;
     })) : null;
-  const showLegend = () => legend.replaceChildren(...legendOf(space.modes[state.colour][2]), ...legendOf(state.cloud === 'distance' ? DISTANCE_LEGEND : null));
+  let painted = false;  // heat maps are seen, on the chosen faces or on all
+  const byHand = isCorrected(run) ? { keys: [[CORRECTED, 'corrected by hand']] } : null;
+  const showLegend = () => {
+    const heated = run.heat && (state.heated || painted);
+    legend.replaceChildren(...legendOf(heated ? faceLegend(run) : null), ...legendOf(state.heated ? null : space.modes[state.colour][2]),
+                           ...legendOf(state.colour === 'corrected' ? null : byHand), ...legendOf(state.cloud === 'distance' && !heated ? pointLegend(run) : null));
+  };
   const colour = run.mesh && run.building ? choice('faces by', Object.entries(space.modes).map(([key, [text]]) => [key, text]), 'class', (value) => { space.update({ colour: value }); showLegend(); }) : null;
   const cloud = choice('points by', [['own', 'their colours'], ['distance', 'distance from the model']], 'own', (value) => { space.update({ cloud: value }); showLegend(); });
   const button = (text, action, attributes = {}) => h('button', { type: 'button', class: 'quiet', onclick: action, ...attributes }, text);
@@ -99,18 +105,32 @@ function makeStage(run, choose, alone) {
     [toggle('edges', 'edges'), toggle('doors and windows', 'openings'), run.mesh?.classes.has('object') ? toggle('furniture', 'objects') : null, toggle('points outside of rooms', 'outside'), toggle('parallel view', 'parallel'),
      colour?.element, cloud.element].filter(Boolean)));
   tools.append(...[modes, h('span', { class: 'gap' }), button('Corner', () => space.look('corner')), button('Top', () => space.look('top')), button('Front', () => space.look('front')), h('span', { class: 'gap' }),
-    toggle('ceilings', 'ceilings'), storeys, section, measure, more].filter(Boolean));
+    toggle('ceilings', 'ceilings'), run.heat && run.mesh ? check('residuals on faces', false, (on) => { space.update({ heated: on }); showLegend(); }).element : null, storeys, section, measure, more].filter(Boolean));
   makeSection(space, drawer);
 
-  // A click that is no drag chooses, or measures.
+  // A click that is no drag chooses, measures, or gives the place that a form asked for.
   let pressed = null;
-  canvas.addEventListener('pointerdown', (event) => { pressed = [event.clientX, event.clientY, event.button]; });
-  canvas.addEventListener('click', (event) => {
-    if (!pressed || Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 4) return;
-    const frame = canvas.getBoundingClientRect();
-    const ray = space.ray(event.clientX - frame.left, event.clientY - frame.top);
-    if (measuring.active()) {
-      measuring.add(space.pick(ray, { model: ray.model, panes: false, points: ray.scan }));
+  let picking = null;
+  const ends = (found) => {
+    if (!picking) return;
+    const { take } = picking;
+    picking = null;
+    canvas.classList.remove('measuring');
+    message.textContent = '';
+    if (found) take(found);
+  };
+  function pick(take, what) {
+    if (measuring.active()) measure.click();
+    picking = { take };
+    canvas.classList.add('measuring');
+    message.textContent = `Click the place "${what}" on a floor or a wall; Escape leaves it.`;
+    canvas.focus();
+  }
+  function chooseAt(x, y) {
+    const ray = space.ray(x, y);
+    if (measuring.active() || picking) {
+      const hit = space.pick(ray, { model: ray.model || !ray.scan || picking !== null, panes: false, points: ray.scan && !picking });
+      if (picking) { if (hit) ends(hit.place); } else measuring.add(hit);
       return;
     }
     // Points have no names: a click on them means the face that they are on.
@@ -118,11 +138,34 @@ function makeStage(run, choose, alone) {
     if (hit?.opening !== null && hit?.opening !== undefined) choose('opening', hit.opening, hit.place);
     else if (hit?.face !== null && hit?.face !== undefined) choose('face', hit.face, hit.place);
     else choose(null);
+  }
+  canvas.addEventListener('pointerdown', (event) => { pressed = [event.clientX, event.clientY, event.button]; });
+  canvas.addEventListener('click', (event) => {
+    if (!pressed || Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 4) return;
+    const frame = canvas.getBoundingClientRect();
+    chooseAt(event.clientX - frame.left, event.clientY - frame.top);
+  });
+  const STEP = Math.PI / 24;
+  canvas.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
+    const [right, up] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key] ?? [0, 0];
+    if (right || up) { if (event.shiftKey) space.pan(0.1 * right, 0.1 * up); else space.turn(STEP * right, STEP * up); }
+    else if (event.key === '+' || event.key === '=') space.zoom(1.2);
+    else if (event.key === '-') space.zoom(1 / 1.2);
+    else if (event.key === 'Enter') chooseAt(canvas.clientWidth * (state.mode === 'split' ? 0.75 : 0.5), canvas.clientHeight / 2);
+    else return;
+    event.preventDefault();
   });
   addEventListener('keydown', (event) => {
     if (event.key !== 'Escape') return;
-    if (measuring.active()) { measuring.toggle(); measure.setAttribute('aria-pressed', 'false'); } else choose(null);
+    const open = document.querySelector('.menu[open], .notes details[open]');
+    if (picking) ends(null);
+    else if (open) { open.removeAttribute('open'); open.querySelector('summary').focus(); }
+    else if (event.target.matches?.('input, select')) event.target.blur();  // what was typed stays
+    else if (measuring.active()) { measuring.toggle(); measure.setAttribute('aria-pressed', 'false'); } else choose(null);
   });
+  // A click elsewhere closes what lies over the page.
+  addEventListener('pointerdown', (event) => { for (const open of document.querySelectorAll('.menu[open], .notes details[open]')) if (!open.contains(event.target)) open.removeAttribute('open'); });
   /** So that a room is seen that is chosen elsewhere: its storey is on, those above it are off. */
   function uncover(storey) {
     for (const input of storeys?.querySelectorAll('input') ?? []) {
@@ -134,7 +177,16 @@ function makeStage(run, choose, alone) {
     }
     space.draw();
   }
-  return { space, setMode, message, measuring, uncover };
+  // For scripts beside this one, as tests have: where a place with its true coordinates is on the stage, from its left and top.
+  canvas.placeOf = (place) => space.project(run.frame.place(place)).at(-1);
+  /** Shows what is chosen: faces, openings, a room. */
+  function show(what) {
+    painted = (what.faces ?? []).some((f) => run.heat?.faces.has(f)) && state.mode !== 'scan';
+    space.choose(what);
+    showLegend();
+  }
+  showLegend();
+  return { space, setMode, message, measuring, uncover, show, pick };
 }
 
 /** Six sliders: what lies outside of them is cut away. */
@@ -184,28 +236,34 @@ async function start() {
   let chosen = null;
   function choose(kind, index = 0, place = null) {
     selection = kind === null ? null : { kind, index, place };
-    const of = { face: run.building?.faces, room: run.building?.rooms, opening: run.building?.openings }[kind];
-    if (kind !== null && !of?.[index]) return;
-    const face = kind === 'face' ? index : -1;
-    const room = kind === 'room' ? index : kind === 'face' ? run.building.faces[index].room : -1;
-    stage?.space.choose(kind === 'opening' ? -1000 - index : face, room);
-    plan.choose(kind === 'opening' ? run.building.openings[index].room_a : room);
+    const of = thing(kind, index);
+    if (kind !== null && !of) return;
+    const room = { room: () => index, face: () => of.room, opening: () => of.room_a, wall: () => run.building.faces[of.faces[0]]?.room ?? -1 }[kind]?.() ?? -1;
+    const faces = { face: () => [index], wall: () => of.faces }[kind]?.() ?? [];
+    stage?.show({ faces, openings: kind === 'opening' ? [index] : [], room: kind === 'room' || kind === 'face' ? room : -1 });
+    plan.choose(room);
     tables.choose(selection);
     chosen.show(selection);
     document.documentElement.dataset.chosen = selection ? `${kind} ${index}` : '';
   }
+  const thing = (kind, index) => ({ face: run.building?.faces, room: run.building?.rooms, opening: run.building?.openings, wall: run.walls }[kind]?.[index]);
   const hasScan = run.data.parts.some((part) => part.part === 'scan' && part.path);
   // Without anything else the scan says how large all is.
   const alone = hasScan && !run.building && !run.mesh ? await run.readCloud() : null;
   stage = makeStage(run, choose, alone);
   const elsewhere = (kind, index) => {
-    const of = { face: run.building?.faces, room: run.building?.rooms, opening: run.building?.openings }[kind]?.[index];
-    if (of) stage?.uncover(of.storey);
+    const of = thing(kind, index);
+    if (of) stage?.uncover(kind === 'wall' ? run.building.faces[of.faces[0]]?.storey ?? 0 : of.storey);
     choose(kind, index);
   };
+  /** The next place that is clicked, in the scan's own frame and unit: two numbers where its z points up. */
+  const pick = (take, what) => stage?.pick((place) => {
+    const true_ = run.frame.back(place).map((v) => v / run.building.unit);
+    take(run.frame.z[2] > 0.999999 ? true_.slice(0, 2) : true_);
+  }, what);
   plan = makePlan(run, at('plan'), (room) => elsewhere('room', room));
   tables = makeTables(run, at('tables'), elsewhere);
-  chosen = makeChosen(run, at('chosen'), { choose: elsewhere, look: (box, direction) => stage?.space.look(direction, grown(box)), corrections });
+  chosen = makeChosen(run, at('chosen'), { choose: elsewhere, look: (box, direction) => stage?.space.look(direction, grown(box)), pick, corrections });
   chosen.list.replaceWith(corrections.element);
   chosen.show(null);
   notes(run);

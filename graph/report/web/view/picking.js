@@ -4,7 +4,8 @@ import { OUTSIDE } from './cloud.js';
 /** pick(ray): {place, face, opening, thing} of what is nearest; null. */
 export function makePicking(run, space, panes) {
   const { state } = space;
-  const inside = (p) => p.every((v, i) => v >= state.low[i] && v <= state.high[i]);
+  let [low, high] = [[], []];
+  const inside = (p) => p.every((v, i) => v >= low[i] && v <= high[i]);
 
   /** Calls found(distance, triangle) where the ray meets triangles; from both sides, or the front alone. */
   function meet(positions, ray, both, found) {
@@ -30,6 +31,7 @@ export function makePicking(run, space, panes) {
 
   return (ray, wanted = { model: true, panes: true, points: false }) => {
     let best = null;
+    [low, high] = [space.cutLow(), space.cutHigh()];
     const offer = (distance, storey, make) => {
       if ((best && distance >= best.distance) || !(storey < 0 || state.storeys.has(storey))) return;
       const place = ray.origin.map((v, i) => v + distance * ray.direction[i]);

@@ -9,7 +9,7 @@ export function makePlan(run, root, choose) {
     root.append(h('p', { class: 'empty' }, 'There is no plan: floorplan.svg is lacking.'));
     return { choose() {} };
   }
-  const sheet = h('div', { class: 'sheet', tabindex: '0', 'aria-label': 'Floor plan: wheel zooms, drag moves, click a room' }, svg);
+  const sheet = h('div', { class: 'sheet', tabindex: '0', 'aria-label': 'Floor plan: wheel zooms, drag moves, click a room. Keys: arrows move, plus and minus zoom, tab goes to the rooms' }, svg);
   const whole = svg.viewBox.baseVal;
   const all = [whole.x, whole.y, whole.width, whole.height];
   let view = [...all];
@@ -63,6 +63,15 @@ export function makePlan(run, root, choose) {
     const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix);
     show([at.x - (at.x - view[0]) * factor, at.y - (at.y - view[1]) * factor, view[2] * factor, view[3] * factor]);
   }, { passive: false });
+
+  sheet.addEventListener('keydown', (event) => {
+    const [dx, dy] = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] }[event.key] ?? [0, 0];
+    const factor = { '+': 1 / 1.2, '=': 1 / 1.2, '-': 1.2 }[event.key];
+    if (event.target !== sheet || event.ctrlKey || event.metaKey || event.altKey || !(dx || dy || factor)) return;
+    const [width, height] = [view[2] * (factor ?? 1), view[3] * (factor ?? 1)];
+    show([view[0] + dx * view[2] + (view[2] - width) / 2, view[1] + dy * view[3] + (view[3] - height) / 2, width, height]);
+    event.preventDefault();
+  });
 
   return {
     choose(room) {

@@ -1,10 +1,12 @@
 // Scan and model in 3D. Nothing is drawn unless something has changed: draw() asks for one frame.
-import { BufferAttribute, BufferGeometry, Color, DoubleSide, FrontSide, LineSegments, Mesh, OrthographicCamera, PerspectiveCamera, Points, Scene, Vector3,
-         WebGLRenderer } from 'three';
+import { BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, FrontSide, LineSegments, Mesh, OrthographicCamera, PerspectiveCamera, Points, Scene,
+         Spherical, Vector2, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three-modules/controls/OrbitControls.js';
 import { OUTSIDE } from './cloud.js';
-import { CLASSES, DISTANCE_RANGE, OPENINGS, faceColours } from './colours.js';
+import { CLASSES, CORRECTED, OPENINGS, distanceRange, faceColours } from './colours.js';
 import { boxOf } from './frame.js';
+import { makeAtlas, placesInAtlas } from './heat.js';
+import { correctedRims, makeBands, rimsOf } from './outlines.js';
 import { makePicking } from './picking.js';
 import { faceMaterial, lineMaterial, pointMaterial } from './shaders.js';
 
@@ -24,14 +26,20 @@ export function makeSpace(run, stage, canvas, alone = null) {
   const box = building?.box ?? boxOf(alone ? triples(alone.positions) : [...(run.mesh?.classes.values() ?? [])].flatMap((of) => chunks(of.positions)));
   if (!Number.isFinite(box.min[0])) Object.assign(box, { min: [-1, -1, 0], max: [1, 1, 2] });
   const bounds = { min: box.min.map((v) => v - 0.3), max: box.max.map((v) => v + 0.3) };
-  const state = { mode: 'split', ceilings: false, edges: true, openings: true, objects: true, outside: false, storeys: new Set(building?.storeys.map((s) => s.index) ?? [0]),
-                  low: [...bounds.min], high: [...bounds.max], colour: 'class', cloud: 'own', parallel: false };
+  const state = { mode: 'split', ceilings: false, edges: true, openings: true, objects: true, outside: false, storeys: new Set(run.storeys),
+                  low: [...bounds.min], high: [...bounds.max], colour: 'class', cloud: 'own', parallel: false, heated: false };
   const uniforms = {
     low: { value: new Vector3(...state.low) }, high: { value: new Vector3(...state.high) }, shown: { value: new Float32Array(OUTSIDE + 1) },
-    face: { value: -1 }, room: { value: -1 }, light: { value: 1 },
+    face: { value: -1 }, other: { value: -1 }, room: { value: -1 }, light: { value: 1 },
+    heated: { value: 0 }, range: { value: distanceRange(run) / 1000 }, squares: { value: null }, squaresSize: { value: new Vector2(1, 1) },
   };
+  const atlas = run.heat ? makeAtlas(run.heat, Math.min(8192, renderer.capabilities.maxTextureSize)) : null;
+  uniforms.squares.value = new DataTexture(atlas?.data ?? new Uint8Array(4), atlas?.width ?? 1, atlas?.height ?? 1);
+  uniforms.squares.value.needsUpdate = true;
+  if (atlas) uniforms.squaresSize.value.set(atlas.width, atlas.height);
+  if (atlas?.left) run.notes.push(`The heat maps of ${atlas.left} faces are not painted on them: this graphics card has no room for them.`);
   const own = { solid: { value: 1 }, panes: { value: 0.42 }, lines: { value: 0.62 } };
-  const cloudUniforms = { size: { value: 0.035 }, scale: { value: 1 }, least: { value: 1.8 * Math.min(devicePixelRatio, 2) }, ceilings: { value: 0 }, coloured: { value: 0 }, range: { value: DISTANCE_RANGE }, parallel: { value: 0 }, eye: { value: new Vector3() } };
+  const cloudUniforms = { size: { value: 0.035 }, scale: { value: 1 }, least: { value: 1.8 * Math.min(devicePixelRatio, 2) }, ceilings: { value: 0 }, coloured: { value: 0 }, range: { value: distanceRange(run) }, parallel: { value: 0 }, eye: { value: new Vector3() } };
   const modes = faceColours(run);
 
   // One draw call for each class, one for all edges, one for all panes, one for all points.
@@ -45,6 +53,7 @@ export function makeSpace(run, stage, canvas, alone = null) {
     geometry.setAttribute('normal', new BufferAttribute(of.normals, 3));
     geometry.setAttribute('ids', new BufferAttribute(of.ids, 3));
     geometry.setAttribute('tint', new BufferAttribute(new Uint8Array(of.positions.length), 3, true));
+    geometry.setAttribute('square', new BufferAttribute(atlas ? placesInAtlas(of.positions, of.ids, run.heat, atlas) : new Float32Array((of.positions.length / 3) * 2).fill(-1), 2));
     const sides = name === 'floor' || name === 'wall' ? FrontSide : DoubleSide;
     const mesh = new Mesh(geometry, faceMaterial(uniforms, { opacity: own.solid }, { side: sides, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
     mesh.frustumCulled = false;
@@ -52,12 +61,15 @@ export function makeSpace(run, stage, canvas, alone = null) {
     model.add(mesh);
   }
   const edges = building ? addLines(model, edgesOf(building), uniforms, { opacity: own.lines, colour: { value: new Color(0x20262e) } }) : null;
+  const bands = building ? makeBands(model, uniforms, new Color(0xee6b0d), 0.035) : null;
+  if (building) makeBands(model, uniforms, new Color(...CORRECTED.map((v) => v / 255)), 0.02)(correctedRims(building));
   const panes = building ? panesOf(building) : null;
   let paneMesh = null;
   if (panes?.positions.length) {
     const geometry = new BufferGeometry();
     for (const [name, size] of [['position', 3], ['normal', 3], ['ids', 3]]) geometry.setAttribute(name, new BufferAttribute(panes[name === 'ids' ? 'ids' : `${name}s`], size));
     geometry.setAttribute('tint', new BufferAttribute(panes.tints, 3, true));
+    geometry.setAttribute('square', new BufferAttribute(new Float32Array((panes.positions.length / 3) * 2).fill(-1), 2));
     paneMesh = new Mesh(geometry, faceMaterial(uniforms, { opacity: own.panes }, { side: DoubleSide, transparent: true, depthWrite: false }));
     paneMesh.frustumCulled = false;
     paneMesh.renderOrder = 2;
@@ -102,6 +114,7 @@ export function makeSpace(run, stage, canvas, alone = null) {
     camera.up.set(0, 0, 1);
     controls = new OrbitControls(camera, canvas);
     controls.screenSpacePanning = true;
+    controls.enableKeys = false;  // turn() and its like
     controls.addEventListener('change', draw);
     if (!before) return;
     camera.position.copy(before.position);
@@ -136,6 +149,37 @@ export function makeSpace(run, stage, canvas, alone = null) {
     return distance * 1.05;
   }
 
+  /** Turns the camera about what it looks at, by radians to the right and up. */
+  function turn(right, up) {
+    const place = new Spherical().setFromVector3(turned(camera.position.clone().sub(controls.target)));
+    place.theta += right;
+    place.phi = Math.min(Math.PI - 0.001, Math.max(0.001, place.phi - up));
+    camera.position.copy(controls.target).add(turned(new Vector3().setFromSpherical(place), true));
+    controls.update();
+    draw();
+  }
+  /** Spherical has y up. */
+  const turned = (v, back = false) => (back ? new Vector3(v.x, -v.z, v.y) : new Vector3(v.x, v.z, -v.y));
+  /** Moves the camera to the right and up, by shares of what is seen; zoom(1.2) is nearer by a fifth. */
+  function pan(right, up) {
+    const reach = 2 * HALF * camera.position.distanceTo(controls.target) / (camera.isOrthographicCamera ? camera.zoom : 1);
+    const motion = new Vector3().setFromMatrixColumn(camera.matrix, 0).multiplyScalar(right * reach).addScaledVector(new Vector3().setFromMatrixColumn(camera.matrix, 1), up * reach);
+    camera.position.add(motion);
+    controls.target.add(motion);
+    controls.update();
+    draw();
+  }
+  function zoom(factor) {
+    if (camera.isOrthographicCamera) camera.zoom *= factor;
+    else camera.position.sub(controls.target).multiplyScalar(1 / factor).add(controls.target);
+    controls.update();
+    draw();
+  }
+
+  /** What the section box leaves: where it is as wide as it can be, nothing is cut. */
+  const cutLow = () => state.low.map((v, i) => (v <= bounds.min[i] ? -1e9 : v));
+  const cutHigh = () => state.high.map((v, i) => (v >= bounds.max[i] ? 1e9 : v));
+
   let request = 0;
   function draw() {
     if (request) return;
@@ -169,8 +213,9 @@ export function makeSpace(run, stage, canvas, alone = null) {
     uniforms.shown.value.fill(0);
     for (const storey of state.storeys) uniforms.shown.value[Math.min(storey, OUTSIDE - 1)] = 1;
     uniforms.shown.value[OUTSIDE] = state.outside ? 1 : 0;
-    uniforms.low.value.set(...state.low);
-    uniforms.high.value.set(...state.high);
+    uniforms.low.value.set(...cutLow());
+    uniforms.high.value.set(...cutHigh());
+    uniforms.heated.value = state.heated ? 1 : 0;
     for (const [name, mesh] of meshes) mesh.visible = name === 'ceiling' ? state.ceilings : name === 'object' ? state.objects : true;
     if (edges) edges.visible = state.edges;
     if (paneMesh) {
@@ -241,7 +286,7 @@ export function makeSpace(run, stage, canvas, alone = null) {
   }
 
   const space = {
-    state, bounds, box, modes, draw, look, setCloud, project, ray, setMeasured, cloud: null, drawn: null,
+    state, bounds, box, modes, draw, look, turn, pan, zoom, cutLow, cutHigh, setCloud, project, ray, setMeasured, cloud: null, drawn: null,
     /** Draws again after the state was changed. */
     update(changes = {}) {
       Object.assign(state, changes);
@@ -249,9 +294,12 @@ export function makeSpace(run, stage, canvas, alone = null) {
       if ('colour' in changes) paint();
       draw();
     },
-    choose(face, room) {
-      uniforms.face.value = face;
+    /** Shows faces (two at most are painted, all have a rim), openings and a room as chosen. */
+    choose({ faces = [], openings = [], room = -1 }) {
+      uniforms.face.value = openings.length > 0 ? -1000 - openings[0] : faces[0] ?? -1;
+      uniforms.other.value = faces[1] ?? -1;
       uniforms.room.value = room;
+      bands?.(rimsOf(building, faces, openings));
       draw();
     },
     hasCloud: () => points !== null,
