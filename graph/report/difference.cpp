@@ -1,6 +1,7 @@
 #include "graph/report/difference.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "graph/api/fact_json.hpp"
@@ -41,20 +42,25 @@ void compare_parameters(const RunRecord& a, const RunRecord& b, Difference& resu
   }
 }
 
+/// One that is not a number is the same as another.
+bool same_number(double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); }
+
 void compare_metrics(const RunRecord& a, const RunRecord& b, Difference& result) {
   const auto fact = [](const RunRecord::Metric& metric) -> const Fact& { return metric.fact; };
   for (const auto& [name, both] : Pairs<Fact>(a.metrics, b.metrics, name_of, fact).entries) {
     const auto& [of_a, of_b] = both;
     const bool comparable = of_a != nullptr && of_b != nullptr && of_a->unit == of_b->unit;
-    const auto x = comparable ? number_of(*of_a) : std::nullopt;
-    const auto y = comparable ? number_of(*of_b) : std::nullopt;
-    if (comparable && (of_a->value == of_b->value || (x && y && (*x == *y || (*x != *x && *y != *y))))) continue;
+    std::optional<std::pair<double, double>> numbers;
+    if (comparable)
+      if (const auto x = number_of(*of_a), y = number_of(*of_b); x && y) numbers = {*x, *y};
+    if (comparable && (of_a->value == of_b->value || (numbers && same_number(numbers->first, numbers->second))))
+      continue;
     auto& entry = result.metrics.emplace_back();
     entry.name = name;
     entry.unit = of_a != nullptr ? of_a->unit : of_b->unit;
     if (of_a != nullptr) entry.a = *of_a;
     if (of_b != nullptr) entry.b = *of_b;
-    if (x && y) entry.change = *y - *x;
+    if (numbers) entry.change = numbers->second - numbers->first;
   }
 }
 

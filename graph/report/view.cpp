@@ -98,9 +98,10 @@ class Packer {
       return fmt::format("{} takes {:.1f} MB of the page, which has room for {:.1f} MB: --max-size gives more", path,
                          size / 1e6, static_cast<double>(room_) / 1e6);
     };
-    constexpr std::uint64_t best_deflation = 32;
+    constexpr std::uint64_t best_deflation = 32, most_to_thin = 1'000'000'000;
     const bool points = file.extension() == ".glb";
-    if (!points && bytes / best_deflation > room_) return too_large(static_cast<double>(bytes));
+    if (bytes / best_deflation > room_ && !(points && bytes <= most_to_thin))
+      return too_large(static_cast<double>(bytes));
     Attachment attachment{media_type_in_view(path), true, {}};
     std::size_t whole = 0;
     try {
@@ -243,12 +244,17 @@ std::pair<View, std::size_t> write_view(const fs::path& target, const RunRecord&
   // What the data take is known when the files are chosen: where it is more than was kept for it, they are chosen anew.
   View view;
   std::string data;
-  std::size_t besides = size_without(text, run, embedded(view_data(run, wishes, nothing_of(wishes))), wishes);
-  if (besides > max_bytes)
-    throw Error(fmt::format("the page takes {:.2f} MB without any file of the run, --max-size allows {:.2f} MB",
-                            static_cast<double>(besides) / 1e6, static_cast<double>(max_bytes) / 1e6),
+  const auto check_size = [&](std::size_t bytes, std::string_view what) {
+    if (bytes <= max_bytes) return;
+    throw Error(fmt::format("the page takes {:.2f} MB {}, --max-size allows {:.2f} MB",
+                            static_cast<double>(bytes) / 1e6, what, static_cast<double>(max_bytes) / 1e6),
                 fmt::format("--max-size {:.1f} or more: what has no room is left out",
-                            std::ceil(static_cast<double>(besides) / 1e5) / 10 + 0.5));
+                            std::ceil(static_cast<double>(bytes) / 1e5) / 10 + 0.5));
+  };
+  const std::size_t least = size_without(text, run, embedded(view_data(run, wishes, nothing_of(wishes))), wishes);
+  check_size(least, "without any file of the run");
+  constexpr std::size_t told = 300;  // what the data say of a part: its file, or why there is none
+  std::size_t besides = least + told * wishes.parts.size();
   for (int i = 0; i < 4; ++i) {
     view = pack_view(run, wishes, max_bytes > besides ? max_bytes - besides : 0);
     data = embedded(view_data(run, wishes, view));
@@ -256,6 +262,9 @@ std::pair<View, std::size_t> write_view(const fs::path& target, const RunRecord&
     if (now <= besides) break;
     besides = now;
   }
+  std::size_t packed = size_without(text, run, data, wishes);
+  for (const auto& file : view.files) packed += file.base64.size();
+  check_size(packed, "with what it says of the run's files");
   const std::size_t size = write_filled_page(target, title_of(run), data, view.files, page, text);
   return {std::move(view), size};
 }

@@ -37,11 +37,12 @@ struct View {
 
 /// Reads the files that are wished for, of a run, up to `max_bytes` as they stand in the page. A part has the first of
 /// its files that is in the run's folder and has room; else a file of its node type with the same extension. A GLB file
-/// of points that has no room is thinned until it has, to a thousand points at least, which is noted.
+/// of points that has no room is thinned until it has, to a thousand points at least, which is noted. What has more
+/// bytes than 32 times the room is not read, but for such a file up to 1 GB.
 View pack_view(const RunRecord& run, const ViewWishes& wishes, std::size_t max_bytes);
 
 /// Writes the page about a run with its files, all of it at most `max_bytes`: beside, then renamed. Gives what is in it
-/// and its size. Throws Error, also if the page was not built, or if it is larger without any file.
+/// and its size. Throws Error, also if the page was not built, or if it is larger even so.
 std::pair<View, std::size_t> write_view(const std::filesystem::path& target, const RunRecord& run,
                                         const std::filesystem::path& page, std::size_t max_bytes);
 

@@ -16,6 +16,7 @@ namespace atrium::building {
 namespace {
 
 constexpr std::size_t few_points = 10;                                   // fewer say nothing
+constexpr std::size_t most_squares = 1'000'000;                          // of a face's heat map
 constexpr std::array<double, 4> band_limits{0.05, 0.015, 0.005, 0.001};  // metres: of LOA20 to LOA50, USIBD 2016
 
 struct Figures {
@@ -119,6 +120,15 @@ Metrics totals(const Building& building, const std::vector<FaceDistances>& faces
   return metrics;
 }
 
+/// How wide squares must be that no face has many more than it may have.
+double widened(const std::vector<FaceDistances>& faces, double cell) {
+  double result = cell;
+  for (const auto& face : faces)
+    if (!face.squares.empty())
+      result = std::max(result, std::sqrt((face.high - face.low).prod() / static_cast<double>(most_squares)));
+  return result;
+}
+
 std::vector<HeatMapFace> captions(const Building& building, const std::vector<FaceDistances>& faces) {
   std::vector<HeatMapFace> result;
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -150,12 +160,20 @@ Accuracy::Out Accuracy::run(const In& in, const Params& params, Context& context
   if (in.cloud->size() == 0) context.warn("the cloud has no points: the accuracy of every face is unknown");
   const auto most = static_cast<std::size_t>(params.max_points);
   const std::size_t step = std::max<std::size_t>(1, (in.cloud->size() + most - 1) / most);
-  const auto faces =
-      face_distances(*in.mesh, *in.cloud, step, in.building->faces.size(), params.reach, params.cell, context);
+  const auto measured = [&](double cell) {
+    return face_distances(*in.mesh, *in.cloud, step, in.building->faces.size(), params.reach, cell, context);
+  };
+  auto faces = measured(params.cell);
+  const double cell = widened(faces, params.cell);
+  if (cell > params.cell) {
+    context.warn(fmt::format("squares of {:.3f} m instead of {:.3f} m, so that no face has more than about {} of them",
+                             cell, params.cell, most_squares));
+    faces = measured(cell);
+  }
   const int specified = static_cast<int>(params.specified);
   const std::string table = table_of(*in.building, faces, specified);
-  const std::string picture = heat_map(captions(*in.building, faces), params.cell, params.colour_range);
-  const std::string squares = heat_map_table(faces, in.mesh->origin, params.cell, params.colour_range);
+  const std::string picture = heat_map(captions(*in.building, faces), cell, params.colour_range);
+  const std::string squares = heat_map_table(faces, in.mesh->origin, cell, params.colour_range);
   for (const auto& [path, text] :
        {std::pair{&params.path, &table}, {&params.picture, &picture}, {&params.heat_maps, &squares}}) {
     const auto target = context.output(path->path);

@@ -25,7 +25,7 @@ namespace atrium::building {
 ///
 /// accuracy.svg: each face as it is seen from its room, walls side by side, storey by storey, coloured by the mean
 /// signed distance of each square of `cell` (blue behind the face, red before it; grey: no points), with a scale of
-/// ± `colour_range`.
+/// ± `colour_range`. Where a face would have more than about a million squares, all are wider, with a warning.
 ///
 /// heat_maps.json: the same squares for a program that paints them onto the faces (`atrium view` does):
 /// {atrium_heat_maps 1, units "m", origin, cell, range, step, faces}. Per face with points: face (its number), corner

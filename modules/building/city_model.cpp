@@ -167,8 +167,9 @@ class Model {
     if (!solid.closed) {
       solid = room_solid(building_, room, false);
       warnings_.push_back(
-          solid.closed ? fmt::format("the surface of '{}' does not close with its openings: it has none", room.name)
-                       : fmt::format("the surface of '{}' does not close: it is no solid", room.name));
+          solid.closed
+              ? fmt::format("the surface of '{}' does not close with its openings: it has none", room.name)
+              : fmt::format("the surface of '{}' does not close: it is no solid, and has no openings", room.name));
     }
     Surfaces surfaces(building_);
     Json boundaries = Json::array(), values = Json::array();

@@ -29,7 +29,9 @@ void apply_all(CorrectionDraft& draft, const std::vector<Correction>& correction
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const auto& row) { return row.first == correction.name; });
     found->second(draft, correction);
-    shapes = shapes || correction.name != "rename_room";
+    if (correction.name == "rename_room") continue;
+    check_thicknesses(draft, correction);
+    shapes = true;
     floors = floors || correction.name == "set_floor";
   }
   if (shapes) settle_building(draft, floors);

@@ -19,6 +19,9 @@ void drop_face(CorrectionDraft& draft, const Correction& correction);
 void set_ceiling(CorrectionDraft& draft, const Correction& correction);
 void set_floor(CorrectionDraft& draft, const Correction& correction);
 
+/// Throws the correction's Error where a wall whose thickness was given reaches into a room by now.
+void check_thicknesses(CorrectionDraft& draft, const Correction& correction);
+
 /// All of a file in their order.
 void apply_all(CorrectionDraft& draft, const std::vector<Correction>& corrections);
 

@@ -125,17 +125,17 @@ struct ElementLimits {
 ///
 /// 1. Faces of walls are cut with the plan of their storey. Two that look away from each other at most max_thickness
 ///    apart are a wall where they overlap; the rest of a face has the thickness behind it that was given by hand
-///    (BuildingFace::backing), or the assumed one. Steps within a room
-///    are no walls; holes in a room's plan at most max_column_width wide are columns.
+///    (BuildingFace::backing), or the assumed one. Steps within a room are no walls; holes in a room's plan at most
+///    max_column_width wide are columns.
 /// 2. Ends are extended to the far face of the wall that they meet. Where walls overlap then, at corners and junctions,
-///    the higher one has the place, then one of which both faces were seen, then the longer one: the others end there.
-///    What lies in a room is taken away. A wall that is cut in two that way is two walls.
+///    the higher one has the place, then one of which both faces were seen or whose thickness was given, then the
+///    longer one: the others end there. What lies in a room is taken away. A wall that is cut in two that way is two
+///    walls.
 /// 3. Foot and head follow the faces' outlines: of two the lower foot, the higher head. Where a wall of an upper storey
 ///    stands on it, it ends below that.
 /// 4. Floors at one height, and ceilings in one plane, are one slab where they hang together; walls that stand on it,
-/// or
-///    end at it, belong to its area. A ceiling and the floor of the storey above, at most max_slab apart, are one slab
-///    where they overlap.
+///    or end at it, belong to its area. A ceiling and the floor of the storey above, at most max_slab apart, are one
+///    slab where they overlap.
 Elements elements_of(const Building& building, const ElementLimits& limits);
 
 }  // namespace atrium::building

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
 
 namespace atrium::building {
@@ -98,15 +100,23 @@ std::string numbers(const Eigen::Vector3d& v, int digits) {
 
 /// The squares' means row by row from below, in tenths of a millimetre.
 std::string squares_of(const FaceDistances& face, std::int32_t columns, std::int32_t rows) {
-  std::vector<std::string> values(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), "null");
+  constexpr std::int32_t none = std::numeric_limits<std::int32_t>::min();
+  std::vector<std::int32_t> values(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), none);
   for (const auto& square : face.squares) {
     // Points a little beside the face have squares that are none of it.
     if (square.x < 0 || square.y < 0 || square.x >= columns || square.y >= rows) continue;
     values[static_cast<std::size_t>(square.y) * static_cast<std::size_t>(columns) +
-           static_cast<std::size_t>(square.x)] = fmt::format("{}", std::lround(square.mean * 1e4));
+           static_cast<std::size_t>(square.x)] = static_cast<std::int32_t>(std::lround(square.mean * 1e4));
   }
   std::string result;
-  for (const auto& value : values) result += (result.empty() ? "" : ",") + value;
+  result.reserve(5 * values.size());
+  for (const auto value : values) {
+    if (!result.empty()) result += ',';
+    if (value == none)
+      result += "null";
+    else
+      fmt::format_to(std::back_inserter(result), "{}", value);
+  }
   return result;
 }
 

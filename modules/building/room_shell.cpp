@@ -24,6 +24,7 @@ bool same_plane(const ShellWelding& welding, const WeldedPiece& a, const WeldedP
   const BuildingFace &first = a.piece->face, &other = b.piece->face;
   constexpr double same_way = 0.999;
   if (first.surface != other.surface || first.plane.normal.dot(other.plane.normal) < same_way) return false;
+  if (first.backing != other.backing) return false;  // who measured one wall has not measured the other
   return std::all_of(b.rings.begin(), b.rings.end(), [&](const Ring& ring) {
     return std::all_of(ring.begin(), ring.end(), [&](std::uint32_t v) {
       return std::abs(first.plane.signed_distance(welding.vertices[v])) < plane_slack;

@@ -36,9 +36,9 @@ ShellPiece part_of(const ShellPiece& whole, const PlaneFrame& frame, const PlanP
 PlaneFrame frame_of(const Building& building, const BuildingFace& face);
 
 /// Joins pieces that meet along their edges: places at most half a millimetre apart are one, pieces of one class that
-/// lie in one plane to within a millimetre are one face, and corners that are none in any face go. Pieces without area
-/// are left out. `observed` of a joined face is the mean of its pieces by area, `residual` the RMS of those that were
-/// seen; the plane and the primitive are those of its largest piece.
+/// lie in one plane to within a millimetre and have the same `backing` are one face, and corners that are none in any
+/// face go. Pieces without area are left out. `observed` of a joined face is the mean of its pieces by area, `residual`
+/// the RMS of those that were seen; the plane and the primitive are those of its largest piece.
 RoomShell joined_shell(const std::vector<ShellPiece>& pieces);
 
 /// The border that the pieces leave open, as rings that close it: counter-clockwise seen from where `normal` points to,

@@ -13,16 +13,14 @@ namespace atrium::building {
 ///   area), walls_gross_m2 and walls_net_m2 (faces of walls with and without openings), doors, windows, passages,
 ///   confidence (0 to 1), doubts.
 /// - doors.csv: name, kind (door or passage), storey, from_room, to_room ("" outside, or not known), width_m, height_m,
-///   sill_m (over the foot of its wall), area_m2, wall_thickness_m (empty: one face of it is known), wall, corrected
-///   (yes: by hand).
+///   sill_m (over the foot of its wall), area_m2, wall_thickness_m (empty: one face of it is known and none was
+///   given by hand), wall, corrected (yes: by hand).
 /// - windows.csv: the same columns without kind; in a slope height_m is measured along it.
-/// - walls.csv: name, storey, left_room, right_room, length_m, thickness_m, thickness_assumed (yes: one face is known,
-/// and no
-///   thickness was given by hand), height_m
-///   (greatest), gross_m2 and net_m2 (of one side, with and without openings), gross_m3, net_m3, doors_and_windows,
-///   coverage (share of its faces' area that points cover), inferred (yes: none of its faces was seen), faces (their
-///   numbers in building.json and accuracy.csv, with blanks between them: "12 31"), corrected (yes: one of them was, by
-///   hand).
+/// - walls.csv: name, storey, left_room, right_room, length_m, thickness_m, thickness_assumed (yes: one face is known
+///   and no thickness was given by hand), height_m (greatest), gross_m2 and net_m2 (of one side, with and without
+///   openings), gross_m3, net_m3, doors_and_windows, coverage (share of its faces' area that points cover), inferred
+///   (yes: none of its faces was seen), faces (their numbers in building.json and accuracy.csv, with blanks between
+///   them: "12 31"), corrected (yes: one of them was, by hand).
 ///
 /// A building without rooms gives files of one line, and a warning. Errors: numbers that are not finite, indices of
 /// what is not there, a folder that cannot be written. Each file appears whole or not at all.

@@ -15,11 +15,14 @@ struct SingleStretches {
   double other = 0;  ///< thickness of a wall between this face and another one; 0: there is none
 };
 
-SingleStretches single_stretches(const CorrectionDraft& draft, std::int32_t face, double thickness) {
+Elements elements_now(const CorrectionDraft& draft, double assumed_thickness) {
   ElementLimits limits;
   limits.max_thickness = draft.max_thickness;
-  limits.assumed_wall = thickness;
-  const Elements elements = elements_of(draft.building, limits);
+  limits.assumed_wall = assumed_thickness;
+  return elements_of(draft.building, limits);
+}
+
+SingleStretches single_stretches(const Elements& elements, std::int32_t face) {
   SingleStretches result;
   for (const auto& line : elements.lines) {
     if (line.face != face) continue;
@@ -37,9 +40,13 @@ SingleStretches single_stretches(const CorrectionDraft& draft, std::int32_t face
   return result;
 }
 
-/// Throws if the wall would be where a room is, and says from where on.
-void check_rooms_behind(const CorrectionDraft& draft, const Correction& correction, const SingleStretches& stretches,
-                        double thickness) {
+/// A room that a wall reaches into, and how far behind the wall's face it begins, in metres.
+struct RoomBehind {
+  std::int32_t room = -1;  ///< -1: there is none
+  double from = 0;
+};
+
+RoomBehind room_behind(const SingleStretches& stretches, const std::vector<RoomSpace>& rooms, double thickness) {
   constexpr double common_height = 0.05, crumb = 0.01;  // metres, square metres
   const FaceLine& line = stretches.line;
   const Eigen::Vector2d back = -line.normal * thickness;
@@ -48,16 +55,15 @@ void check_rooms_behind(const CorrectionDraft& draft, const Correction& correcti
   for (const auto& span : stretches.spans)
     strips.push_back({line.at(span.from), line.at(span.to), line.at(span.to) + back, line.at(span.from) + back});
   const Region behind = floorplan::united(strips);
-  const std::vector<RoomSpace> rooms = spaces_of(draft.building);
   for (std::size_t r = 0; r < rooms.size(); ++r) {
     const Region shared = floorplan::common(behind, occupied(rooms[r], line.low, line.high, common_height));
     if (floorplan::area(shared) < crumb) continue;
     double from = thickness;
     for (const auto& polygon : shared)
       for (const auto& p : polygon.outline) from = std::min(from, line.offset - line.normal.dot(p));
-    correction.fail("thickness", fmt::format("so thick the wall would reach into '{}'", draft.building.rooms[r].name),
-                    fmt::format("that room begins {:.2f} m behind {}", from, draft.face_name(line.face)));
+    return {static_cast<std::int32_t>(r), from};
   }
+  return {};
 }
 
 }  // namespace
@@ -68,7 +74,7 @@ void set_thickness(CorrectionDraft& draft, const Correction& correction) {
   const double thickness = correction.number("thickness");
   if (thickness < thinnest)
     correction.fail("thickness", fmt::format("{:.3f} m is no thickness of a wall", thickness), "1 cm or more");
-  const SingleStretches stretches = single_stretches(draft, face, thickness);
+  const SingleStretches stretches = single_stretches(elements_now(draft, thickness), face);
   if (stretches.spans.empty() && stretches.other > 0)
     correction.fail("thickness",
                     fmt::format("both faces of the wall behind {} are known: it is {:.3f} m thick",
@@ -77,10 +83,31 @@ void set_thickness(CorrectionDraft& draft, const Correction& correction) {
   if (stretches.spans.empty())
     correction.fail("thickness", fmt::format("no wall is behind {}: it is a step or a column", draft.face_name(face)),
                     draft.walls_of(room));
-  check_rooms_behind(draft, correction, stretches, thickness);
+  if (const RoomBehind behind = room_behind(stretches, spaces_of(draft.building), thickness); behind.room >= 0)
+    correction.fail("thickness", fmt::format("so thick the wall would reach into '{}'", draft.room(behind.room).name),
+                    fmt::format("that room begins {:.2f} m behind {}", behind.from, draft.face_name(face)));
   draft.face(face).backing = thickness;
   draft.mark_face(face, fmt::format("wall behind it set to {:.3f} m", thickness));
   draft.mark(room, fmt::format("{} set to a thickness of {:.3f} m", wall_called(draft, correction, face), thickness));
+}
+
+void check_thicknesses(CorrectionDraft& draft, const Correction& correction) {
+  const auto& faces = draft.building.faces;
+  if (std::none_of(faces.begin(), faces.end(), [](const BuildingFace& face) { return face.backing > 0; })) return;
+  const Elements elements = elements_now(draft, ElementLimits{}.assumed_wall);
+  const std::vector<RoomSpace> rooms = spaces_of(draft.building);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (!(faces[f].backing > 0)) continue;
+    const auto face = static_cast<std::int32_t>(f);
+    const SingleStretches stretches = single_stretches(elements, face);
+    if (stretches.spans.empty()) continue;
+    const RoomBehind behind = room_behind(stretches, rooms, faces[f].backing);
+    if (behind.room >= 0)
+      correction.fail({},
+                      fmt::format("the wall behind {}, {:.3f} m thick by set_thickness, would reach into '{}'",
+                                  draft.face_name(face), faces[f].backing, draft.room(behind.room).name),
+                      fmt::format("that room begins {:.2f} m behind {}", behind.from, draft.face_name(face)));
+  }
 }
 
 }  // namespace atrium::building

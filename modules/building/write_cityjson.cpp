@@ -11,13 +11,13 @@ namespace atrium::building {
 
 void WriteCityjson::run(const In& in, const Params& params, Context& context) {
   check(*in.building);
-  const std::string crs = crs_of(params.crs, in.scan.get(), context);
+  const Transform transform = in.transform ? *in.transform : Transform{};
+  const std::string crs = crs_of(params.crs, in.scan.get(), transform, "building", context);
   const int epsg = epsg_code(crs);
   if (!crs.empty() && epsg == 0)
     context.warn(
         fmt::format("CityJSON names coordinate reference systems by their EPSG code: '{}' is not written", crs));
-  const UprightBuilding upright =
-      upright_building(*in.building, in.transform ? *in.transform : Transform{}, crs.empty());
+  const UprightBuilding upright = upright_building(*in.building, transform, crs.empty());
   if (upright.building.rooms.empty()) context.warn("the building has no rooms: the file has none");
   const CityModel model = city_model(upright.building, {params.title, epsg});
   for (const auto& warning : model.warnings) context.warn(warning);

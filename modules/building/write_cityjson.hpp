@@ -13,9 +13,9 @@ namespace atrium::building {
 /// InteriorWallSurface, a FloorSurface or a CeilingSurface. Openings are polygons of their own in it, cut out of their
 /// faces: Door, Window, and ClosureSurface for passages and holes in slabs; `parent` and `children` join them with
 /// their faces. Corners of an opening on the edge of a face are corners of the face beside it too, so that the surface
-/// closes. A room whose surface does not close is a MultiSurface, with a warning; one that closes only without its
-/// openings is written without them, with a warning. Walls between rooms are not in it: their two faces are (IFC has
-/// the walls).
+/// closes. A room whose surface closes only without its openings is written without them, with a warning; one that
+/// closes neither way is a MultiSurface, without openings too, with a warning. Walls between rooms are not in it: their
+/// two faces are (IFC has the walls).
 ///
 /// Attributes: of storeys sortKey (0 the lowest), elevation_m, height_m; of rooms name, area_m2, height_m, volume_m3,
 /// and confidence and doubts where they are known; of surfaces face (its number in building.json), observed (share of
@@ -23,7 +23,8 @@ namespace atrium::building {
 ///
 /// Metres, z up, whole tenths of a millimetre (`transform`); no corner is there twice, or without use. Ids are
 /// "building", "storey-0", "room-0", … `metadata` has the extent and, where a coordinate reference system is known
-/// (`crs`, or that of `scan`) and has an EPSG code, its address as referenceSystem.
+/// (`crs`, or that of `scan`) and has an EPSG code, its address as referenceSystem; one without a code, and one that
+/// the building is turned out of by more than 10 degrees to be upright, is left out with a warning.
 ///
 /// A building without rooms gives a file without rooms, and a warning. Errors: numbers that are not finite, indices of
 /// what is not there; a name that is no coordinate reference system; a folder that cannot be written. Then no file is

@@ -32,9 +32,9 @@ void check_furniture(const Mesh& mesh) {
 
 void WriteIfc::run(const In& in, const Params& params, Context& context) {
   check(*in.building);
-  const std::string crs = crs_of(params.crs, in.scan.get(), context);
-  const UprightBuilding upright =
-      upright_building(*in.building, in.transform ? *in.transform : Transform{}, crs.empty());
+  const Transform transform = in.transform ? *in.transform : Transform{};
+  const std::string crs = crs_of(params.crs, in.scan.get(), transform, "building", context);
+  const UprightBuilding upright = upright_building(*in.building, transform, crs.empty());
   if (upright.building.rooms.empty()) context.warn("the building has no rooms: the file has no elements");
   const Elements elements =
       elements_of(upright.building, {params.max_thickness, params.max_slab_thickness, params.assumed_thickness,
@@ -56,7 +56,6 @@ void WriteIfc::run(const In& in, const Params& params, Context& context) {
   file.write(text);
   file.commit();
   context.wrote(target);
-  return;
 }
 
 }  // namespace atrium::building

@@ -15,13 +15,14 @@ namespace atrium::building {
 ///
 /// How walls are formed:
 /// - The faces of walls are cut with each storey's plan at 1.2 m. Two faces that look away from each other at most
-///   max_thickness apart are a wall where they overlap. The rest of a face is a wall of assumed_thickness behind it
-///   (property ThicknessAssumed, and another colour).
+///   max_thickness apart are a wall where they overlap. The rest of a face is a wall of the thickness that was given
+///   for it by hand (`backing` of the face), or else of assumed_thickness behind it (property ThicknessAssumed, and
+///   another colour).
 /// - A wall ends where what is behind one of its faces changes, so a wall is a stretch between junctions. Its ends are
 ///   extended to the far face of the wall that they meet. Where walls overlap then, the higher one has the place, then
-///   one of which both faces were seen, then the longer one; the others end at it, so corners and junctions have
-///   neither gap nor overlap. What lies in a room is taken away; what is left of a wall with less than 0.02 m² joins a
-///   neighbour.
+///   one of which both faces were seen or whose thickness was given, then the longer one; the others end at it, so
+///   corners and junctions have neither gap nor overlap. What lies in a room is taken away; what is left of a wall with
+///   less than 0.02 m² joins a neighbour.
 /// - Foot and head follow the outlines of the faces: of two the lower foot and the higher head. Where a wall of the
 ///   storey above stands in the upper part of a wall (beside a hall of two storeys), that one ends below it.
 /// - Steps within a room are no walls. Holes in a room's plan up to max_column_width wide both ways are columns.
@@ -37,8 +38,8 @@ namespace atrium::building {
 /// Quantities: Qto_SpaceBaseQuantities, Qto_WallBaseQuantities, Qto_SlabBaseQuantities, Qto_ColumnBaseQuantities,
 /// Qto_DoorBaseQuantities, Qto_WindowBaseQuantities. Properties: Atrium_Evidence with Coverage (share of the faces'
 /// area that points cover), Residual (their RMS distance, metres), FacesSeen, FacesInferred, Inferred (no face seen),
-/// Faces (their numbers in building.json), RoomConfidence, and of rooms Doubts; IsExternal where rooms are on both
-/// sides.
+/// Faces (their numbers in building.json), RoomConfidence, of rooms Doubts, and of what was corrected by hand
+/// Corrections (its faces' and openings' texts); IsExternal where rooms are on both sides.
 ///
 /// GlobalIds are hashes of what the element is (its kind, its faces) and of the building's corners: equal buildings
 /// have equal ids, whatever the thicknesses assumed. With `id_space` they are hashes of that text instead of the
@@ -46,8 +47,9 @@ namespace atrium::building {
 ///
 /// Metres, z up. Without a coordinate reference system places are those of the scan; further than 1 km from zero, the
 /// site's placement holds a shift by whole metres. With one (`crs`, or that of `scan`) IfcMapConversion holds it, and
-/// the site none. A scan in another unit than metres names no such system, since it counts in its own: warned. Text is
-/// written as ASCII, other characters as \X2\. The time in the header is always the same.
+/// the site none. A scan in another unit than metres names no such system, since it counts in its own; a building that
+/// is turned by more than 10 degrees to be upright is in none, with a warning. Text is written as ASCII, other
+/// characters as \X2\. The time in the header is always the same.
 ///
 /// The text is read back before the file appears: every reference, the number of fields of each type, and that no
 /// GlobalId is there twice. A building without rooms gives a file without storeys' contents, and a warning. Errors:

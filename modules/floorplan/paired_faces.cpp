@@ -69,6 +69,7 @@ WallPiece piece_of(const WallFace& face, const Span& span) {
   piece.end = {piece.to, face.normal};
   if (face.backing > 0) {
     piece.thickness = face.backing;
+    piece.given = span.length();
     piece.right.point -= face.backing * face.normal;
     piece.from -= 0.5 * face.backing * face.normal;
     piece.to -= 0.5 * face.backing * face.normal;

@@ -107,7 +107,7 @@ Sheet on_custom_paper(const Drawings& drawings) {
     sheet.size = 10 * ((need.array() + 1) / 10).ceil();
   }
   sheet.size = sheet.size.cwiseMax(Eigen::Vector2d(297, 210));  // the title block wants room, too
-  sheet.paper = fmt::format("{:.0f} \u00D7 {:.0f} mm", sheet.size.x(), sheet.size.y());
+  sheet.paper = custom_paper(sheet.size);
   lay_out(sheet, drawings, best);
   return sheet;
 }
@@ -154,6 +154,10 @@ std::optional<Paper> paper_named(std::string_view name) {
   for (const auto& format : formats)
     if (format.name == name) return format.paper;
   return {};
+}
+
+std::string custom_paper(const Eigen::Vector2d& size) {
+  return fmt::format("{:.0f} \u00D7 {:.0f} mm", size.x(), size.y());
 }
 
 Bounds2 drawing_bounds(const PlanStorey& storey, double mm, Units units) {

@@ -12,6 +12,8 @@ namespace atrium::floorplan {
 enum class Paper { automatic, a4, a3, a2, a1, a0 };
 /// By its name, "A3"; empty for others.
 std::optional<Paper> paper_named(std::string_view name);
+/// The name of a sheet of no A format, "1250 × 900 mm", of its size in millimetres.
+std::string custom_paper(const Eigen::Vector2d& size);
 
 /// How the storeys lie on the paper. Millimetres.
 struct Sheet {

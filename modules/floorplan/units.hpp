@@ -2,10 +2,14 @@
 #include <string>
 #include <string_view>
 
+#include "graph/api/parameter.hpp"
+
 namespace atrium::floorplan {
 
 /// What lengths on drawings are written in; areas are in square metres, or square feet.
 enum class Units { metres, millimetres, feet };
+/// Their names as parameters have them.
+inline constexpr Choice<Units> unit_choices[]{{"m", Units::metres}, {"mm", Units::millimetres}, {"ft-in", Units::feet}};
 
 /// A length as it stands on a dimension line, whose unit the title block names: "3.45", "3450", "11′ 4″"; of feet to
 /// the half inch, as metres are to the centimetre. `plain`: with the signs that CAD fonts have, as CAD programs write

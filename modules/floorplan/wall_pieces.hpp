@@ -18,9 +18,10 @@ inline Eigen::Vector2d meet(const Line& a, const Line& b) {
 
 /// A wall that is being made: its line from `from` to `to`, its faces, and the lines on which it ends.
 struct WallPiece {
-  Line left;                                       ///< the face seen from the left; the only one of a single face
-  Line right;                                      ///< the opposite face, seen or given
-  double thickness = 0;                            ///< 0: one face only is known
+  Line left;             ///< the face seen from the left; the only one of a single face
+  Line right;            ///< the opposite face, seen or given
+  double thickness = 0;  ///< 0: one face only is known
+  double given = 0;      ///< where the thickness was given: how long its only face is, from left.point; else 0
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< on the middle line, or on the only face
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
   Line start, end;  ///< where it is cut off

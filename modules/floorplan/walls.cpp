@@ -49,6 +49,29 @@ Span covered(const PlanWall& face, const PlanWall& wall, double merge_distance) 
   return within_ring(face.from, face.to, strip(wall.from, wall.to, 0.5 * wall.thickness + merge_distance, beyond));
 }
 
+// Step 4: walls whose thickness was given, longest first, where no other wall covers their face. An end that stays is
+// the one of step 3.
+void add_given_walls(std::vector<PlanWall>& walls, std::vector<WallPiece> pieces, const WallLimits& limits) {
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const WallPiece& a, const WallPiece& b) { return a.given > b.given; });
+  for (const auto& piece : pieces) {
+    const Eigen::Vector2d &along = piece.left.along, normal(-along.y(), along.x());
+    const auto at = [&](double s) -> Eigen::Vector2d { return piece.left.point + s * along; };
+    PlanWall face;
+    face.from = at(0);
+    face.to = at(piece.given);
+    std::vector<Span> spans{{0, piece.given}};
+    for (const auto& wall : walls) spans = without(spans, covered(face, wall, limits.merge_distance));
+    for (const auto& span : spans) {
+      if (span.length() < limits.min_length) continue;
+      WallPiece rest = piece;
+      if (span.from > 0) rest.start = {at(span.from), normal};
+      if (span.to < piece.given) rest.end = {at(span.to), normal};
+      walls.push_back(wall_of(rest));
+    }
+  }
+}
+
 // Step 4: single faces, longest first, without what other walls cover.
 void add_single_faces(std::vector<PlanWall>& walls, std::vector<PlanWall> singles, const WallLimits& limits) {
   std::stable_sort(singles.begin(), singles.end(), [](const PlanWall& a, const PlanWall& b) {
@@ -72,10 +95,15 @@ void add_single_faces(std::vector<PlanWall>& walls, std::vector<PlanWall> single
 
 std::vector<PlanWall> walls_of(const std::vector<WallFace>& faces, const WallLimits& limits) {
   std::vector<PlanWall> walls, singles;
+  std::vector<WallPiece> given;
   for (const auto& piece : joined_ends(paired_faces(faces, limits), limits.corner_gap)) {
     if (piece.length() < 1e-6) continue;
-    (piece.two_faces() ? walls : singles).push_back(wall_of(piece));
+    if (piece.given > 0)
+      given.push_back(piece);
+    else
+      (piece.two_faces() ? walls : singles).push_back(wall_of(piece));
   }
+  add_given_walls(walls, std::move(given), limits);
   add_single_faces(walls, std::move(singles), limits);
   return walls;
 }

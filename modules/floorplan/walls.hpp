@@ -25,7 +25,7 @@ struct WallLimits {
 /// 3. A wall whose end is at most corner_gap away from another's face is extended or cut to it: a wall of two faces to
 ///    the far face of the other, so that corners and T-junctions close; a single face to the near one.
 /// 4. Single faces that lie in another wall, or run beside a face that is there within merge_distance, are left out, as
-///    are those shorter than min_length.
+///    are those shorter than min_length; and so are walls of given thickness whose face does.
 std::vector<PlanWall> walls_of(const std::vector<WallFace>& faces, const WallLimits& limits);
 
 }  // namespace atrium::floorplan

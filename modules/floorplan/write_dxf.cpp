@@ -9,8 +9,8 @@
 #include "modules/floorplan/door_leaf.hpp"
 #include "modules/floorplan/drawn_openings.hpp"
 #include "modules/floorplan/dxf_drawing.hpp"
-#include "modules/floorplan/plan_crs.hpp"
 #include "modules/floorplan/room_label.hpp"
+#include "modules/types/crs_name.hpp"
 
 namespace atrium::floorplan {
 namespace {
@@ -135,10 +135,6 @@ std::vector<DxfLayer> named(const std::string& suffix) {
   return result;
 }
 
-}  // namespace
-
-namespace {
-
 // What the numbers of the file are: its unit, and the system that they count in.
 std::string coordinates_text(Units units, const std::string& crs) {
   const std::string_view unit = units == Units::feet ? "inches" : name_of(units);
@@ -151,7 +147,7 @@ std::string coordinates_text(Units units, const std::string& crs) {
 
 void WriteDxf::run(const In& in, const Params& params, Context& context) {
   const FloorPlan& plan = *in.plan;
-  const std::string crs = crs_of(params.crs, in.scan.get(), plan, context);
+  const std::string crs = crs_of(params.crs, in.scan.get(), plan.to_plan, "plan", context);
   const auto suffix_of = [&](const PlanStorey& storey) {
     return plan.storeys.size() > 1 ? fmt::format("-S{}", storey.index) : std::string();
   };
@@ -196,7 +192,6 @@ void WriteDxf::run(const In& in, const Params& params, Context& context) {
   file.write(std::move(drawing).finish());
   file.commit();
   context.wrote(path);
-  return;
 }
 
 }  // namespace atrium::floorplan

@@ -62,7 +62,7 @@ struct WriteDxf {
       param<&Params::scale>(unitless, within(1, 100000),
                             "The scale at which it will be plotted, 100 for 1:100: sizes texts and dimensions only."),
       param<&Params::dimensions>("Write the chains of dimensions."),
-      param<&Params::units>({{"m", Units::metres}, {"mm", Units::millimetres}, {"ft-in", Units::feet}},
+      param<&Params::units>(unit_choices,
                             "Unit of the coordinates and of the texts; of ft-in the coordinates are in inches."),
       param<&Params::crs>("Coordinate reference system of the input: EPSG:25832; empty: that of `scan`, or local."),
   };

@@ -1,10 +1,12 @@
 #include "modules/floorplan/write_geojson.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "modules/floorplan/caption.hpp"
-#include "modules/floorplan/plan_crs.hpp"
+#include "modules/types/crs_name.hpp"
 
 namespace atrium::floorplan {
 namespace {
@@ -106,7 +108,7 @@ void add_storey(Features& features, const PlanStorey& storey, double origin_z) {
 }  // namespace
 
 void WriteGeojson::run(const In& in, const Params& params, Context& context) {
-  const std::string crs = crs_of(params.crs, in.scan.get(), *in.plan, context);
+  const std::string crs = crs_of(params.crs, in.scan.get(), in.plan->to_plan, "plan", context);
   Features features(*in.plan);
   for (const auto& storey : in.plan->storeys) add_storey(features, storey, origin_height(*in.plan));
   if (in.plan->storeys.empty()) context.warn("the plan is empty: " + params.path.path + " has no features");
@@ -114,7 +116,11 @@ void WriteGeojson::run(const In& in, const Params& params, Context& context) {
       {"type", "FeatureCollection"},
       {"name", crs.empty() ? "floor plan (local coordinates, not WGS 84)" : "floor plan"},
       {"frame", crs.empty() ? "metres in the frame of the scan: x, y" : "metres in " + crs + ": easting, northing"}};
-  if (const int code = epsg_code(crs); code > 0)
+  const int code = epsg_code(crs);
+  if (!crs.empty() && code == 0)
+    context.warn(fmt::format(
+        "GeoJSON names coordinate reference systems by their EPSG code: '{}' is in the member frame only", crs));
+  if (code > 0)
     root["crs"] = {{"type", "name"}, {"properties", {{"name", "urn:ogc:def:crs:EPSG::" + std::to_string(code)}}}};
   root["features"] = features.take();
   const auto path = context.output(params.path.path);
@@ -122,7 +128,6 @@ void WriteGeojson::run(const In& in, const Params& params, Context& context) {
   file.write(root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   file.commit();
   context.wrote(path);
-  return;
 }
 
 }  // namespace atrium::floorplan

@@ -16,10 +16,11 @@ namespace atrium::floorplan {
 /// clockwise, the first corner is repeated at the end. Coordinates are metres in the frame of the plan, rounded to a
 /// tenth of a millimetre, with their true offsets (easting and northing of a georeferenced scan). RFC 7946 knows
 /// longitude and latitude in WGS 84 only, unless both sides agree on another system (§4): these are not turned into
-/// degrees, so that lengths stay lengths. Where the system is known (`crs`, or that of `scan`), the member "crs" of
-/// GeoJSON 2008 names it, which GDAL, QGIS and most others still read; the collection's "frame" names it too, and its
-/// "name" says where there is none. All else is by RFC 7946. Where a height, an elevation or a confidence is not known
-/// it is null.
+/// degrees, so that lengths stay lengths. Where the system is known (`crs`, or that of `scan`) and has an EPSG code,
+/// the member "crs" of GeoJSON 2008 names it, which GDAL, QGIS and most others still read; the collection's "frame"
+/// names it too. One without a code is in "frame" only, with a warning; where there is none, "name" says so. A plan
+/// that was turned upright by more than 10 degrees is in none, with a warning. All else is by RFC 7946. Where a height,
+/// an elevation or a confidence is not known it is null.
 ///
 /// A plan without storeys gives an empty collection, and a warning. Errors: a name that is no coordinate reference
 /// system; a folder that cannot be written; then no file is there.

@@ -16,7 +16,6 @@ void WriteSvg::run(const In& in, const Params& params, Context& context) {
   file.write(svg_sheet(plan, drawn, sheet, drawing));
   file.commit();
   context.wrote(path);
-  return;
 }
 
 }  // namespace atrium::floorplan

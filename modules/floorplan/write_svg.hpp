@@ -59,8 +59,7 @@ struct WriteSvg {
       param<&Params::axes>({{"walls", Axes::walls}, {"input", Axes::input}},
                            "What is parallel to the sheet: the walls, or the input's x and y."),
       param<&Params::dimensions>("Draw the chains of dimensions."),
-      param<&Params::units>({{"m", Units::metres}, {"mm", Units::millimetres}, {"ft-in", Units::feet}},
-                            "What lengths are written in; areas are in m², of ft-in in sq ft."),
+      param<&Params::units>(unit_choices, "What lengths are written in; areas are in m², of ft-in in sq ft."),
   };
   static void run(const In& in, const Params& params, Context& context);
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "modules/io/json_text.hpp"
 #include "modules/types/building_rules.hpp"
@@ -186,9 +187,25 @@ BuildingOpening opening_from_json(const JsonField& field, std::int32_t last_room
 
 std::int32_t last_of(const JsonField& list) { return static_cast<std::int32_t>(list.items().size()) - 1; }
 
+/// "accuracy.wall.rms" becomes {"wall": {"rms": …}}; what has other names is left out.
+Json accuracy_to_json(const Metrics& metrics) {
+  constexpr std::string_view prefix = "accuracy.";
+  Json json = Json::object();
+  for (const auto& metric : metrics.values) {
+    if (!std::string_view(metric.name).starts_with(prefix)) continue;
+    const std::string rest = metric.name.substr(prefix.size());
+    const std::size_t dot = rest.find('.');
+    if (dot == std::string::npos) continue;
+    if (!std::isfinite(metric.value)) throw Error(metric.name + " is not finite");
+    json[rest.substr(0, dot)][rest.substr(dot + 1)] = metric.value;
+  }
+  return json;
+}
+
 }  // namespace
 
-std::string building_to_json(const Building& building, const Eigen::Vector3d& up, std::optional<double> scan_unit) {
+std::string building_to_json(const Building& building, const Eigen::Vector3d& up, std::optional<double> scan_unit,
+                             const Metrics* accuracy) {
   check(building);
   if (!up.allFinite()) throw Error("what is up in the building has a number that is not finite");
   Json root{{"atrium_building", 1}, {"units", "m"}, {"up", json_of(up)}, {"origin", json_of(building.origin)}};
@@ -197,6 +214,7 @@ std::string building_to_json(const Building& building, const Eigen::Vector3d& up
     root["confidence"] = building.confidence;
     root["doubts"] = building.doubts;
   }
+  if (accuracy != nullptr) root["accuracy"] = accuracy_to_json(*accuracy);
   for (const char* list : {"storeys", "rooms", "faces", "openings", "walls"}) root[list] = Json::array();
   for (const auto& storey : building.storeys)
     root["storeys"].push_back({{"elevation", storey.elevation}, {"height", storey.height}});

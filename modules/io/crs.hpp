@@ -16,7 +16,7 @@ struct Crs {
 };
 
 /// Of WKT 1 or 2.
-Crs crs_of_wkt(std::string_view wkt);
+Crs crs_of_wkt(std::string_view text);
 /// Of the directory of GeoTIFF keys (LAS record 34735). Keys that are not understood are passed over.
 Crs crs_of_geotiff(const std::byte* keys, std::size_t size);
 

@@ -99,6 +99,15 @@ double unit_of(const RawGeometry& geometry, const ReadScan::Params& params, cons
   return guess.metres;
 }
 
+/// Once, for all that is made of the scan (crs_of).
+void warn_of_other_unit(const std::string& path, const Cloud& cloud, const Context& context) {
+  if (!cloud.crs.empty() && cloud.unit != 1)
+    context.warn(
+        fmt::format("{}: its coordinate reference system counts in units of {:.7g} m: results, which are in "
+                    "metres, do not name it",
+                    path, cloud.unit));
+}
+
 void warn_of_duplicates(const std::string& path, const Cloud& cloud, const Context& context) {
   if (const std::size_t places = few_places(cloud.points); places > 0) {
     const Eigen::Vector3d first = cloud.origin + cloud.points.front().cast<double>();
@@ -170,6 +179,7 @@ ReadScan::Out ReadScan::run(const Params& params, Context& context) {
   cloud.unit = scale;
   cloud.y_up = geometry.y_up;
   cloud.crs = geometry.crs;
+  warn_of_other_unit(path, cloud, context);
   set_sensor(geometry, params, scale, cloud, context);
   warn_of_lost_digits(geometry, cloud.origin, scale, context);
   hint_at_unit(path, cloud, params.scale != 1.0 || (known && params.unit != Unit::metre), context);

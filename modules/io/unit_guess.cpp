@@ -145,16 +145,13 @@ UnitGuess guess_unit(const std::vector<Eigen::Vector3f>& points, bool y_up, cons
   rated.reserve(std::size(units));
   for (const auto& unit : units) rated.push_back(rate(unit, extent, pieces, faces, y_up, context));
   const Rated& metres = rated.front();
-  constexpr double some_things = 0.8;
-  const Rated* best = nullptr;  // with a room's height, or furniture or doors
+  const Rated* best = nullptr;
   for (const auto& r : rated)
-    if (&r != &metres && !is_too_low(r) && (r.height > 0 || r.things > some_things) &&
-        (best == nullptr || r.score > best->score))
-      best = &r;
+    if (&r != &metres && !is_too_low(r) && (best == nullptr || r.score > best->score)) best = &r;
   if (best == nullptr || best->score < -1e299) return {};
   const double odds = std::exp(std::min(50.0, best->score - metres.score));
   // A hall is as high in metres as a room in feet: furniture or a door has to say which it is.
-  constexpr double clear = 4.5, doubt = 0.1, certain = 100, highest_hall = 20;
+  constexpr double clear = 4.5, doubt = 0.1, certain = 100, highest_hall = 20, some_things = 0.8;
   const bool may_be_hall = metres.height < highest_hall && odds < certain;
   if (odds > clear && (!may_be_hall || best->things > std::max(0.0, metres.things) + some_things))
     return {best->unit.metres,

@@ -7,11 +7,12 @@ namespace atrium::io {
 void WriteBuilding::run(const In& in, const Params& params, Context& context) {
   std::string text;
   const std::optional<double> unit = in.scan ? std::optional(in.scan->unit) : std::nullopt;
+  const Metrics* accuracy = in.accuracy ? &*in.accuracy : nullptr;
   if (in.transform) {
     const Transform back = inverse(*in.transform);
-    text = building_to_json(transformed(*in.building, back), back.rotation * Eigen::Vector3d::UnitZ(), unit);
+    text = building_to_json(transformed(*in.building, back), back.rotation * Eigen::Vector3d::UnitZ(), unit, accuracy);
   } else {
-    text = building_to_json(*in.building, Eigen::Vector3d::UnitZ(), unit);
+    text = building_to_json(*in.building, Eigen::Vector3d::UnitZ(), unit, accuracy);
   }
   const auto target = context.output(params.path.path);
   AtomicFile file(target);

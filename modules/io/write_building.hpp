@@ -2,6 +2,7 @@
 #include "graph/api/node.hpp"
 #include "modules/types/building.hpp"
 #include "modules/types/cloud.hpp"
+#include "modules/types/metrics.hpp"
 
 namespace atrium::io {
 
@@ -9,8 +10,9 @@ namespace atrium::io {
 ///
 ///     {"atrium_building": 1, "units": "m", "up": [0, 0, 1], "origin": [x, y, z],
 ///      "scan_unit": {"name": "ft", "metres": 0.3048}, "confidence": 0.9, "doubts": [text, …],
-///      "storeys":  [{"elevation": 0, "height": 2.5}, …],
-///      "rooms":    [{"name": "room 1", "storey": 0, "area": m², "height": m, "volume": m³, "faces": [0, …],
+///      "accuracy": {"all": {"points": 90211, "median": m, "rms": m, "p95": m}, "wall": {…}, "area": {"loa30": 0.4,
+///      …}}, "storeys":  [{"elevation": 0, "height": 2.5}, …], "rooms":    [{"name": "room 1", "storey": 0, "area": m²,
+///      "height": m, "volume": m³, "faces": [0, …],
 ///                    "outline": [place, …], "holes": [[place, …], …],
 ///                    "confidence": 0.8, "doubts": ["its floor was not seen", …]}, …],
 ///      "faces":    [{"class": "wall", "storey": 0, "room": 0, "area": m², "normal": [x, y, z], "offset": d,
@@ -31,7 +33,9 @@ namespace atrium::io {
 /// 1) and `doubts` where nobody has judged the rooms (layout.confidence does).
 ///
 /// All lengths are in metres. `scan_unit` (with `scan`) says in which unit the scan's file was read: its name, and
-/// metres per unit; places in the file are places here divided by that.
+/// metres per unit; places in the file are places here divided by that. `accuracy` (with that input) has the totals of
+/// building.accuracy: how far the scan's points are from the model, by class, and which share of the faces' area is in
+/// which band; it is not read back.
 ///
 /// Errors: numbers that are not finite, indices of what is not there; a folder that cannot be written. Then no file is
 /// there.
@@ -42,6 +46,7 @@ struct WriteBuilding {
     Input<Building> building;
     OptionalInput<Transform> transform;
     OptionalInput<Cloud> scan;
+    OptionalInput<Metrics> accuracy;
   };
   struct Params {
     OutputPath path{"building.json"};
@@ -49,7 +54,8 @@ struct WriteBuilding {
   static constexpr auto inputs =
       std::tuple{port<&In::building>("What is written."),
                  port<&In::transform>("From the frame that is wanted to that of the building."),
-                 port<&In::scan>("The scan that it was made from: the unit of its file is named.")};
+                 port<&In::scan>("The scan that it was made from: the unit of its file is named."),
+                 port<&In::accuracy>("What building.accuracy says of it in all.")};
   static constexpr auto params = std::tuple{param<&Params::path>("The JSON file.")};
   static void run(const In& in, const Params& params, Context& context);
 };

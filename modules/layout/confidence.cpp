@@ -110,7 +110,7 @@ double spacing_of(const Building& building, const PlanePrimitives& planes) {
   std::vector<bool> used(planes.primitives.size(), false);
   double area = 0;
   for (const auto& face : building.faces) {
-    if (face.primitive < 0) continue;
+    if (face.primitive < 0 || static_cast<std::size_t>(face.primitive) >= used.size()) continue;
     used[static_cast<std::size_t>(face.primitive)] = true;
     area += face.observed * area_of(building, face);
   }

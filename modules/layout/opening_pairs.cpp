@@ -127,6 +127,11 @@ class Joining {
       add(f, hole, &other);
       return;
     }
+    lead_out(f, std::move(hole));
+  }
+
+  /// A hole with nothing on the other side.
+  void lead_out(std::size_t f, FaceHole hole) {
     if (hole.kind == "window" && hole.foot_hidden) {
       if (hole.leads_on)
         reach_foot(hole);

@@ -20,8 +20,7 @@ namespace atrium::layout {
 ///   hole (hidden squares count half), and if something shows through them, more than strays do: a reveal at least.
 ///   Their sides are moved to where the face's points begin around them, or to the jambs of the reveal.
 /// - Panes often show nothing behind them. A gap in an outer wall is a window all the same if nine tenths of each side
-/// of
-///   its rim were seen, most of it is in sight, it has 0.3 m² or more, and nothing stands up to 0.6 m before it. The
+///   of its rim were seen, most of it is in sight, it has 0.3 m² or more, and nothing stands up to 0.6 m before it. The
 ///   warning counts these, and gaps that are less clean, which are left closed.
 /// - What begins within sill_height over its face's foot, or hides its foot and joins two rooms or has a leaf, is a
 ///   door and reaches the foot; wider than max_door_width it is a passage. Lower than min_door_height, it is
@@ -29,10 +28,9 @@ namespace atrium::layout {
 ///   rooms, shows no leaf and has no floor beyond is glazed if it is higher than 2.4 m, or wider than 1.3 m and
 ///   1.8 m high: a window, as all others are. Else it is a door, or left out if it is low. Warnings count these.
 /// - Faces that are inferred, or of which less than 5 % was seen, have no openings of their own. Around an opening the
-/// face must have been seen: on min_rim
-///   of a rim of 15 cm, on min_wide_rim of it for slabs and for what is wider than max_door_width. These must have
-///   their rim on each side, wide openings in walls both jambs in the face. Openings for which too little was seen are
-///   left out, and counted in the log.
+///   face must have been seen: on min_rim of a rim of 15 cm, on min_wide_rim of it for slabs and for what is wider than
+///   max_door_width. These must have their rim on each side, wide openings in walls both jambs in the face. Openings
+///   for which too little was seen are left out, and counted in the log.
 /// - Rectangles of two faces back to back that lie over each other are one opening: it joins their rooms, and has the
 ///   thickness of the wall; each side is where more points say so.
 ///

@@ -11,8 +11,9 @@ namespace atrium::object {
 /// Poisson's surface is closed, so where nothing was seen it is guessed. PCL gives no sample density to cut that away;
 /// instead, triangles with a corner or their middle further than `trim` from the nearest point are dropped. Both it and
 /// the depth can follow the points' spacing (surface_spacing): with a fixed depth the cells grow with the building, and
-/// beyond the trim much of the furniture is dropped. Colours are those of the nearest points. Normals must point to the
-/// side from which the surface was seen; triangles are counter-clockwise from there.
+/// beyond the trim much of the furniture is dropped. Where half of the points have 16 copies there is no spacing: depth
+/// 8 and 6 cm stand for it, with a warning. Colours are those of the nearest points. Normals must point to the side
+/// from which the surface was seen; triangles are counter-clockwise from there.
 ///
 /// PCL's solver adds in the order in which threads arrive, so it runs on one thread: same input, same bytes. Its octree
 /// keeps state for the whole program, so reconstructions wait for each other. Fewer than 10 points, or all in one

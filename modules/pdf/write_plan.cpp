@@ -22,6 +22,18 @@ std::vector<DrawnPlan> pages_of(const DrawnPlan& drawn) {
   return pages;
 }
 
+/// Gives sheets a size that has room for each of them; what is drawn stays in their middles.
+void give_one_size(std::vector<Sheet>& sheets) {
+  Eigen::Vector2d size = Eigen::Vector2d::Zero();
+  for (const auto& sheet : sheets) size = size.cwiseMax(sheet.size);
+  for (auto& sheet : sheets) {
+    const Eigen::Vector2d shift = 0.5 * (size - sheet.size);
+    for (auto& place : sheet.places) place += shift;
+    sheet.size = size;
+    sheet.paper = floorplan::custom_paper(size);
+  }
+}
+
 /// The sheets of all pages at one scale, the smallest that any of them needs, and where that may be chosen on one
 /// paper.
 std::vector<Sheet> sheets_of(const std::vector<DrawnPlan>& pages, double origin_z, const WritePlan::Params& params) {
@@ -36,10 +48,14 @@ std::vector<Sheet> sheets_of(const std::vector<DrawnPlan>& pages, double origin_
       std::max_element(sheets.begin(), sheets.end(), [](const auto& a, const auto& b) { return a.scale < b.scale; });
   const int scale = smallest->scale;
   arrange(params.paper, scale);
+  if (params.paper != floorplan::Paper::automatic) return sheets;
   const auto largest = std::max_element(sheets.begin(), sheets.end(),
                                         [](const auto& a, const auto& b) { return a.size.prod() < b.size.prod(); });
-  const auto paper = floorplan::paper_named(largest->paper);
-  if (params.paper == floorplan::Paper::automatic && paper) arrange(*paper, scale);
+  if (std::all_of(sheets.begin(), sheets.end(),
+                  [](const auto& s) { return floorplan::paper_named(s.paper).has_value(); }))
+    arrange(*floorplan::paper_named(largest->paper), scale);
+  else
+    give_one_size(sheets);
   return sheets;
 }
 
@@ -76,7 +92,6 @@ void WritePlan::run(const In& in, const Params& params, Context& context) {
   file.write(std::move(pdf).finish());
   file.commit();
   context.wrote(path);
-  return;
 }
 
 }  // namespace atrium::pdf

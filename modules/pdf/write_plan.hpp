@@ -51,9 +51,8 @@ struct WritePlan {
       param<&Params::axes>({{"walls", floorplan::Axes::walls}, {"input", floorplan::Axes::input}},
                            "What is parallel to the page: the walls, or the input's x and y."),
       param<&Params::dimensions>("Draw the chains of dimensions."),
-      param<&Params::units>(
-          {{"m", floorplan::Units::metres}, {"mm", floorplan::Units::millimetres}, {"ft-in", floorplan::Units::feet}},
-          "What lengths are written in; areas are in m², of ft-in in sq ft."),
+      param<&Params::units>(floorplan::unit_choices,
+                            "What lengths are written in; areas are in m², of ft-in in sq ft."),
   };
   static void run(const In& in, const Params& params, Context& context);
 };

@@ -56,15 +56,15 @@ Eigen::Vector3d vector_of(const std::vector<double>& v, const char* name) {
   return {v[0], v[1], v[2]};
 }
 
-/// The explicit camera: its eye and its target in the drawing's coordinates.
+/// The explicit camera: its eye and its target in the drawing's coordinates. One that fits leaves a margin (pixels).
 std::pair<Eigen::Vector3d, Eigen::Vector3d> explicit_camera(const Drawing& drawing, const Params& params,
-                                                            double field_of_view) {
+                                                            double field_of_view, int margin) {
   const Eigen::Vector3d eye = drawing.local(vector_of(params.eye, "eye"));
   const Eigen::Vector3d target = drawing.local(vector_of(params.target, "target"));
   if ((target - eye).norm() < 1e-6) throw Error("'eye' and 'target' are the same place", "look at another place");
   if (!params.fit) return {eye, target};
   const Eigen::AlignedBox3d box = drawing.bounds();
-  const int width = static_cast<int>(params.width);
+  const int width = static_cast<int>(params.width) - margin;
   return {fitted_eye(box, target - eye, field_of_view, width, static_cast<int>(params.height)), box.center()};
 }
 
@@ -85,8 +85,9 @@ void aim(Drawing& drawing, const Params& params, const std::string& view_name, c
   const double field_of_view = params.field_of_view > 0 ? params.field_of_view : usual_field;
   double metres_per_pixel = 0;
   if (camera == Camera::placed) {
-    const auto [eye, target] = explicit_camera(drawing, params, field_of_view);
+    const auto [eye, target] = explicit_camera(drawing, params, field_of_view, margin);
     metres_per_pixel = set_view(drawing.renderer(), eye, target, field_of_view, height);
+    if (params.fit) drawing.renderer()->GetActiveCamera()->SetWindowCenter(static_cast<double>(margin) / width, 0);
   } else if (camera == Camera::inside) {
     const Viewpoint place = inside_view(drawing.surface_points());
     metres_per_pixel = set_view(drawing.renderer(), place.eye, place.target, field_of_view, height);

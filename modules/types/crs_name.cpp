@@ -7,28 +7,58 @@
 #include <cctype>
 
 #include "graph/api/error.hpp"
+#include "modules/types/wkt.hpp"
 
 namespace atrium {
 namespace {
 
 /// WGS 84, ETRS89, NAD83, CGCS2000: what is often given in the place of a projected system.
 constexpr std::array in_degrees{4326, 4979, 4258, 4937, 4269, 4490};
+constexpr const char* projected_help =
+    "name the projected system that the scan's coordinates are in, for instance EPSG:25832";
 
 bool is_code(const std::string& text) {
   return !text.empty() && text.size() < 8 &&
          std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-/// Of well-known text: its last authority is that of the whole; without one the name by which it begins.
-std::string name_in_wkt(const std::string& wkt) {
-  for (const std::string mark : {"AUTHORITY[\"EPSG\",\"", "ID[\"EPSG\","}) {
-    const auto at = wkt.rfind(mark);
-    if (at == std::string::npos) continue;
-    const auto from = at + mark.size(), to = wkt.find_first_not_of("0123456789", from);
-    if (to != std::string::npos && to > from && to - from < 8) return "EPSG:" + wkt.substr(from, to - from);
+std::string unquoted(std::string_view text) {
+  const bool quoted = text.size() > 1 && text.front() == '"' && text.back() == '"';
+  return std::string(quoted ? text.substr(1, text.size() - 2) : text);
+}
+
+/// "EPSG:" and the code, which is that of no system that counts in degrees.
+std::string epsg_name(const std::string& code) {
+  if (std::find(in_degrees.begin(), in_degrees.end(), std::stoi(code)) != in_degrees.end())
+    throw Error("EPSG:" + code + " counts in degrees, the model in metres", projected_help);
+  return "EPSG:" + code;
+}
+
+/// Whether the system is geographic. Geodetic ones (WKT 2) may also be geocentric, in metres.
+bool is_in_degrees(std::string_view text) {
+  return !wkt::first_node(text, {"GEOGCS", "GEOGCRS", "GEOGRAPHICCRS"}).empty() ||
+         (!wkt::first_node(text, {"GEODCRS", "GEODETICCRS"}).empty() &&
+          text.find("CS[ellipsoidal") != std::string_view::npos);
+}
+
+/// Of well-known text: the EPSG code that stands right within the projected system, or within the whole where none is
+/// projected; without one the name by which the text begins. Codes further within are those of its datum, its units or
+/// its heights.
+std::string name_in_wkt(std::string_view text) {
+  const std::string_view projected = wkt::first_node(text, {"PROJCS", "PROJCRS", "PROJECTEDCRS"});
+  for (const std::string_view part : wkt::parts_of(projected.empty() ? text : projected)) {
+    if (!wkt::is_node(part, "AUTHORITY") && !wkt::is_node(part, "ID")) continue;
+    const auto id = wkt::parts_of(part);
+    if (id.size() < 2 || unquoted(id[0]) != "EPSG") continue;
+    if (const std::string code = unquoted(id[1]); is_code(code)) return epsg_name(code);
   }
-  const auto from = wkt.find('"'), to = wkt.find('"', from + 1);
-  return from == std::string::npos || to == std::string::npos ? std::string() : wkt.substr(from + 1, to - from - 1);
+  const auto from = text.find('"'), to = text.find('"', from + 1);
+  const bool named = from != std::string_view::npos && to != std::string_view::npos;
+  std::string name(named ? text.substr(from + 1, to - from - 1) : std::string_view());
+  const bool other = !projected.empty() || !wkt::first_node(text, {"LOCAL_CS", "ENGCRS"}).empty();
+  if (!other && is_in_degrees(text))
+    throw Error("'" + name + "' counts in degrees, the model in metres", projected_help);
+  return name;
 }
 
 /// Authority and code of a name, a URN or an address.
@@ -56,10 +86,7 @@ std::string crs_name(const std::string& text) {
   if (authority != "EPSG" || !is_code(code))
     throw Error("'" + text + "' names no coordinate reference system",
                 "write it as EPSG:25832, with the number that the EPSG register (epsg.org) has for it");
-  if (std::find(in_degrees.begin(), in_degrees.end(), std::stoi(code)) != in_degrees.end())
-    throw Error("EPSG:" + code + " counts in degrees, the model in metres",
-                "name the projected system that the scan's coordinates are in, for instance EPSG:25832");
-  return authority + ":" + code;
+  return epsg_name(code);
 }
 
 int epsg_code(const std::string& name) {
@@ -71,12 +98,7 @@ int epsg_code(const std::string& name) {
 
 std::string crs_of(const std::string& given, const Cloud* scan, const Context& context) {
   if (!given.empty()) return crs_name(given);
-  if (scan == nullptr || scan->crs.empty()) return {};
-  if (scan->unit != 1) {
-    context.warn(fmt::format("the scan counts in units of {} m, its coordinate reference system too: it is not written",
-                             scan->unit));
-    return {};
-  }
+  if (scan == nullptr || scan->crs.empty() || scan->unit != 1) return {};
   try {
     return crs_name(scan->crs);
   } catch (const Error& error) {
@@ -84,6 +106,16 @@ std::string crs_of(const std::string& given, const Cloud* scan, const Context& c
                              error.what()));
     return {};
   }
+}
+
+std::string crs_of(const std::string& given, const Cloud* scan, const Transform& upright, std::string_view what,
+                   const Context& context) {
+  constexpr double level = 0.985;  // the cosine of 10 degrees, as of heights
+  std::string crs = crs_of(given, scan, context);
+  if (crs.empty() || upright.rotation(2, 2) > level) return crs;
+  context.warn(
+      fmt::format("the {} is turned upright, out of {}, whose z is not up in it: it is not written", what, crs));
+  return {};
 }
 
 }  // namespace atrium

@@ -1,6 +1,7 @@
 """What tests/faults/run runs: small pipelines and sweeps, their inputs, and what they must write."""
 import collections, os, pathlib, random, re, shutil, struct, subprocess
 
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
 # Of the files that a run leaves these tell of times, places or processes.
 UNSTABLE = {"manifest.json", "trace.json", "resolved.yaml", "written", "result.json", "variant.json", "sweep.json", "worker.log",
             "table.csv", "table.json", "table.txt", "table.md"}
@@ -59,6 +60,9 @@ def write_inputs(folder):
     shutil.copy(folder / "scan-0.ply", folder / "scan.ply")
     (folder / "cloud.yaml").write_text(CLOUD)
     (folder / "sweep.yaml").write_text(SWEEP)
+    # Without the PDF: glib and librsvg end the program themselves where memory or threads lack.
+    lines = (SOURCE / "pipelines/atrium.yaml").read_text().splitlines(keepends=True)
+    (folder / "model.yaml").write_text("".join(line for line in lines if "pdf.write_plan" not in line))
 
 
 class Case:
@@ -82,12 +86,12 @@ class Case:
             shutil.copytree(self.before, folder, symlinks=True)
 
 
-def cases(source):
+def cases():
     return [
         Case("cloud", "run {in}/cloud.yaml -s scan={in}/scan.xyz -j 2"),
         Case("cold", "run {in}/cloud.yaml -s scan={in}/scan.ply -j 2", cached=True),
         Case("warm", "run {in}/cloud.yaml -s scan={in}/scan.ply -j 2", cached=True, warm=True),
-        Case("model", f"run {source}/pipelines/atrium.yaml -s scan={{in}}/scan.ply -j 2", cached=True, every=False),
+        Case("model", "run {in}/model.yaml -s scan={in}/scan.ply -j 2", cached=True, every=False),
         Case("sweep", "sweep run {in}/sweep.yaml -s scan={in}/scan.ply -j 2", cached=True, every=False),
         Case("isolated", "sweep run {in}/sweep.yaml -s scan={in}/scan.ply -j 2 --isolate", cached=True, every=False),
     ]

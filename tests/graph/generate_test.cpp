@@ -130,7 +130,9 @@ TEST(ManualPage, HasEveryCommandAndOptionOfTheHelp) {
       EXPECT_NE(section.find(name), std::string::npos) << title << ": " << name;
       ++options;
     }
-    if (command.front() == "run") EXPECT_GT(options, 5U);
+    if (command.front() == "run") {
+      EXPECT_GT(options, 5U);
+    }
   }
 }
 

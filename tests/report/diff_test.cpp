@@ -55,8 +55,7 @@ TEST_F(Diff, FilesOutsideOfTheFolderAreNotRead) {
   fs::create_symlink(folder / "private.png", folder / "sent/link.png");
   write_text(folder / "sent/resolved.yaml", "atrium: 1\nnodes: {}\n");
   json artefacts = json::array();
-  for (const std::string path :
-       {(folder / "private.png").string(), std::string("../private.png"), std::string("link.png")})
+  for (const auto& path : {(folder / "private.png").string(), std::string("../private.png"), std::string("link.png")})
     artefacts.push_back({{"path", path}, {"bytes", 6}});
   write_text(folder / "sent/manifest.json",
              json{{"status", "ok"},

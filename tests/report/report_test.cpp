@@ -103,8 +103,9 @@ TEST_F(Report, OfASweepWorksInABrowser) {
   std::size_t failed = 0;
   for (const auto& variant : data.at("variants")) {
     failed += variant.at("status") == "failed" ? 1 : 0;
-    if (variant.at("status") == "failed")
+    if (variant.at("status") == "failed") {
       EXPECT_NE(variant.value("message", "").find("window.intruder"), std::string::npos) << variant.at("message");
+    }
     EXPECT_EQ(variant.at("models").size(), 1U);
   }
   EXPECT_EQ(failed, 6U);

@@ -231,6 +231,35 @@ TEST(ViewParts, ThinPointsUntilTheyHaveRoom) {
   EXPECT_NE(none.parts[1].lacking.find("--max-size gives more"), std::string::npos);
 }
 
+TEST(ViewParts, OfAGigabyteAreNotReadToBeThinned) {
+  const TemporaryFolder folder;
+  make_run(folder / "run", {{"scan.glb", "glTF"}});
+  fs::resize_file(folder / "run/scan.glb", 1'100'000'000);  // a hole: it takes no place
+  const auto view = packed(folder / "run", {{"scan", {"scan.glb"}, "a.b"}}, 25'000'000);
+  EXPECT_EQ(view.parts[0].lacking,
+            "scan.glb takes 1100.0 MB of the page, which has room for 25.0 MB: --max-size gives more");
+}
+
+TEST(ViewPage, NeverTakesMoreThanItMay) {
+  const TemporaryFolder folder;
+  make_run(folder / "run", {{"scan.csv", std::string(3000, 'x')}});
+  const std::string wishes = R"({"parts": [{"part": "scan", "files": ["scan.csv"], "node": "a.b"},)"
+                             R"({"part": "none", "files": [")" +
+                             std::string(5000, 'n') + R"("], "node": "x.y"}], "parameters": []})";
+  write_text(folder / "page.html", "<script type=\"application/json\" id=\"wishes\">" + wishes + "</script>");
+  const report::RunRecord run = report::read_run(folder / "run");
+  const std::size_t page_size = fs::file_size(folder / "page.html");
+  // Between the page without a word of what it lacks, and the page with it.
+  try {
+    report::write_view(folder / "view.html", run, folder / "page.html", page_size + 3000);
+    ADD_FAILURE() << "nothing was refused: " << fs::file_size(folder / "view.html");
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("with what it says of the run's files"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_FALSE(fs::exists(folder / "view.html"));
+}
+
 TEST(ViewPage, WithoutItsWishesIsRefused) {
   EXPECT_THROW(report::read_wishes("<html></html>", "page"), Error);
   const std::string open = "<script type=\"application/json\" id=\"wishes\">";

@@ -99,6 +99,25 @@ TEST_F(AccuracyTable, SaysWhatMeetsTheBandThatIsAskedFor) {
   EXPECT_NEAR(value(metrics, "accuracy.area.meets"), 10.0 / 59, 1e-9);
 }
 
+TEST_F(AccuracyTable, SquaresOfALargeFaceAreWiderThanAskedFor) {
+  for (auto& v : mesh.vertices) v.head<2>() *= 10;  // a floor of 40 m × 30 m: 12 million squares of a centimetre
+  for (int i = 0; i < 20; ++i) point(5 + i, 7, 0.01);
+  Accuracy::Params params;
+  params.cell = 0.01;
+  run(params);
+  const auto json = nlohmann::json::parse(std::ifstream(host->folder / "heat_maps.json"));
+  EXPECT_NEAR(json["cell"].get<double>(), std::sqrt(1200 / 1e6), 1e-6);
+  ASSERT_EQ(json["faces"].size(), 1U);
+  const auto& face = json["faces"][0];
+  const std::size_t count = face["columns"].get<std::size_t>() * face["rows"].get<std::size_t>();
+  EXPECT_LT(count, 1'010'000U);
+  ASSERT_EQ(face["squares"].size(), count);
+  EXPECT_EQ(std::count_if(face["squares"].begin(), face["squares"].end(), [](const auto& v) { return v == 100; }), 20);
+  ASSERT_EQ(host->warnings.size(), 1U);
+  EXPECT_EQ(host->warnings[0],
+            "squares of 0.035 m instead of 0.010 m, so that no face has more than about 1000000 of them");
+}
+
 TEST_F(AccuracyTable, TheSquaresAreThereForProgramsWithTheirPlaces) {
   // Of the wall y = 0, seen from y > 0: 20 mm before it at x 0.5 … 1.5, 3 mm behind it at x 3; one point at its far
   // corner.
@@ -141,7 +160,7 @@ TEST_F(AccuracyTable, TheHeatMapShowsEachFaceAndItsSquares) {
   std::ostringstream text;
   text << std::ifstream(host->folder / "accuracy.svg").rdbuf();
   const std::string svg = text.str();
-  EXPECT_NE(svg.find("wall 2, a &lt; b &amp; c"), std::string::npos);
+  EXPECT_NE(svg.find("face 2 (wall), a &lt; b &amp; c"), std::string::npos);
   EXPECT_NE(svg.find("median +20.0 mm, 95 % 20.0 mm, LOA20"), std::string::npos);
   EXPECT_NE(svg.find("<path fill=\"#b40426\" d=\"M"), std::string::npos) << "the scale's red end";
   EXPECT_NE(svg.find("20 mm behind the face"), std::string::npos);

@@ -360,12 +360,36 @@ TEST_F(Corrections, AThicknessThatIsKnownOrHasNoRoomIsRefused) {
             "3:55: so thick the wall would reach into 'room 2' | that room begins 1.00 m behind face 3");
   EXPECT_EQ(corrected(b.building, "  - set_thickness: {room: room 1, face: 3, thickness: 0.9}\n").faces[3].backing,
             0.9);
+  // The other room comes nearer afterwards: so far as the wall leaves it room.
+  const std::string set = "  - set_thickness: {room: room 1, face: 3, thickness: 0.9}\n";
+  EXPECT_EQ(refused(set + "  - move_wall: {room: room 2, face: 11, by: 0.2}\n", b.building),
+            "4:5: the wall behind face 3, 0.900 m thick by set_thickness, would reach into 'room 2' | that room begins "
+            "0.80 m behind face 3");
+  EXPECT_NEAR(corrected(b.building, set + "  - move_wall: {room: room 2, face: 11, by: 0.05}\n").faces[3].backing, 0.9,
+              1e-9);
   House house;
   House::Plan plan = House::rectangle(0, 0, 6, 5);
   plan.column = {{2, 2}, {2.4, 2}, {2.4, 2.4}, {2, 2.4}};
   house.room(plan, 0, [](double, double) { return 2.5; });
   EXPECT_PRED2(begins_with, refused("  - set_thickness: {room: room 1, face: 6, thickness: 0.3}\n", house.building),
                "3:55: no wall is behind face 6: it is a step or a column");
+}
+
+TEST_F(Corrections, AGivenThicknessIsThatOfItsOwnFaceAfterAMerge) {
+  const Building result = corrected(BoxBuilding::two_rooms(),
+                                    "  - set_thickness: {room: room 1, face: 2, thickness: 36 cm}\n"
+                                    "  - merge_rooms: {rooms: [room 1, room 2], name: Hall}\n");
+  expect_room(result, "Hall", 21, 52.5, 7);
+  std::size_t given = 0;
+  for (const auto& face : result.faces) {
+    const bool says_so = std::find(face.corrections.begin(), face.corrections.end(), "wall behind it set to 0.360 m") !=
+                         face.corrections.end();
+    EXPECT_EQ(face.backing, says_so ? 0.36 : 0.0);
+    if (!says_so) continue;
+    ++given;
+    EXPECT_NEAR(flat_polygon(result, face).area(), 4 * 2.5, 1e-6) << "what stood behind room 1";
+  }
+  EXPECT_EQ(given, 1U);
 }
 
 TEST_F(Corrections, WhatWasCorrectedSaysSo) {

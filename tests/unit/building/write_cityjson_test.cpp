@@ -184,6 +184,12 @@ TEST_F(CityJson, IsUprightWhereTheInputIsNot) {
   const json root = write(BoxBuilding::two_rooms(), {}, in);
   const auto extent = root["metadata"]["geographicalExtent"];
   EXPECT_NEAR(extent[5].get<double>() - extent[2].get<double>(), 2.5, 1e-3);
+  EXPECT_TRUE(host->warnings.empty());
+  WriteCityjson::Params params;
+  params.crs = "EPSG:25832";
+  EXPECT_FALSE(write(BoxBuilding::two_rooms(), params, in)["metadata"].contains("referenceSystem"));
+  ASSERT_EQ(host->warnings.size(), 1U);
+  EXPECT_TRUE(host->warnings[0].starts_with("the building is turned upright, out of EPSG:25832"));
 }
 
 TEST_F(CityJson, WhatDoesNotCloseIsSaid) {
@@ -192,7 +198,10 @@ TEST_F(CityJson, WhatDoesNotCloseIsSaid) {
   const json root = write(open);
   EXPECT_EQ(geometry_of(root, "room-0")["type"], "Solid");
   EXPECT_EQ(geometry_of(root, "room-1")["type"], "MultiSurface");
-  EXPECT_EQ(host->warnings, std::vector<std::string>{"the surface of 'room 2' does not close: it is no solid"});
+  EXPECT_EQ(host->warnings,
+            std::vector<std::string>{"the surface of 'room 2' does not close: it is no solid, and has no openings"});
+  for (const auto& surface : geometry_of(root, "room-1")["semantics"]["surfaces"])
+    EXPECT_NE(surface["type"], "Door") << "the solid of room 1 has it";
 }
 
 TEST_F(CityJson, EqualBuildingsGiveEqualBytes) {

@@ -177,7 +177,19 @@ TEST_F(IfcFile, TakesTheSystemOfTheScan) {
   scan.unit = 0.3048;
   more.scan = input(scan);
   EXPECT_TRUE(all(write(BoxBuilding::two_rooms(), {}, more), "IFCPROJECTEDCRS").empty());
+  EXPECT_TRUE(host->warnings.empty()) << "the reader has said so";
+}
+
+TEST_F(IfcFile, OfALyingScanNamesNoSystem) {
+  Transform lying;  // from the input's frame, in which y is up
+  lying.rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  WriteIfc::In more;
+  more.transform = input(lying);
+  WriteIfc::Params params;
+  params.crs = "EPSG:25832";
+  EXPECT_TRUE(all(write(BoxBuilding::two_rooms(), params, more), "IFCPROJECTEDCRS").empty());
   ASSERT_EQ(host->warnings.size(), 1U);
+  EXPECT_TRUE(host->warnings[0].starts_with("the building is turned upright, out of EPSG:25832"));
 }
 
 TEST_F(IfcFile, FurnitureIsThereIfItIsGiven) {

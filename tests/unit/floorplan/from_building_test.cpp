@@ -101,6 +101,26 @@ TEST(FromBuilding, AWallWhoseThicknessWasGivenIsABodyAndIsMarked) {
   EXPECT_TRUE(storey.rooms[1].corrected);
 }
 
+TEST(FromBuilding, WhereAWallMeetsAnotherAGivenThicknessMakesNoSliver) {
+  // Behind the wall y = 0 of a long room are two rooms, and between these 12 cm of a wall that meets it.
+  test::BoxBuilding b;
+  b.room(0, 0, 8, 3);
+  b.room(0, -3, 3.9, -0.12);
+  b.room(4.02, -3, 8, -0.12);
+  const PlanStorey before = drawn(b.building).storeys.at(0);
+  b.building.faces[2].backing = 0.36;
+  const PlanStorey storey = drawn(b.building).storeys.at(0);
+  EXPECT_EQ(storey.walls.size(), before.walls.size());
+  for (const auto& wall : storey.walls) EXPECT_LT(wall.thickness, 0.2) << "from " << wall.from.transpose();
+  EXPECT_NEAR(total_area(storey.bodies), total_area(before.bodies), 1e-4);
+  // Shorter than any wall is what a room behind leaves of its end.
+  test::BoxBuilding end;
+  end.room(0, 0, 8, 3);
+  end.room(0, -3, 7.995, -0.12);
+  end.building.faces[2].backing = 0.36;
+  for (const auto& wall : drawn(end.building).storeys.at(0).walls) EXPECT_LT(wall.thickness, 0.2);
+}
+
 TEST(FromBuilding, OpeningsInterruptTheWalls) {
   const FloorPlan plan = drawn(test::BoxBuilding::two_rooms());
   const PlanStorey& storey = plan.storeys[0];

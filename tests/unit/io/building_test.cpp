@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "files.hpp"
@@ -50,6 +51,22 @@ Building far_away() {
   building.rooms[1].name = "K\u00FCche \"2\"";
   building.faces[5].primitive = -1;
   return building;
+}
+
+TEST_F(BuildingFile, HasTheTotalsOfTheAccuracyAndIsReadWithoutThem) {
+  write(far_away());
+  const std::string plain = content_hash(read().building);
+  Metrics metrics;
+  metrics.values = {{"accuracy.all.points", 1200, ""},
+                    {"accuracy.all.rms", 0.004, "m"},
+                    {"accuracy.area.loa30", 0.75, ""},
+                    {"building.rooms", 2, ""}};
+  WriteBuilding::run({input(far_away()), {}, {}, input(metrics)}, {}, context);
+  const json written = json::parse(std::ifstream(file));
+  EXPECT_EQ(written["accuracy"], json::parse(R"({"all": {"points": 1200, "rms": 0.004}, "area": {"loa30": 0.75}})"));
+  EXPECT_EQ(content_hash(read().building), plain);
+  metrics.values[1].value = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(WriteBuilding::run({input(far_away()), {}, {}, input(metrics)}, {}, context), Error);
 }
 
 TEST_F(BuildingFile, IsReadWithAnyLineEndsAndAMarkInFront) {

@@ -61,7 +61,9 @@ void expect_same(const Cloud& expected, const Cloud& found, double reach) {
       least = std::min(least, d);
     }
     ASSERT_LT(least, reach) << i;
-    if (!expected.colours.empty()) EXPECT_EQ(found.colours[nearest], expected.colours[i]) << i;
+    if (!expected.colours.empty()) {
+      EXPECT_EQ(found.colours[nearest], expected.colours[i]) << i;
+    }
   }
 }
 

@@ -85,6 +85,7 @@ TEST_F(Las, KeepsTheReferenceSystemAndItsUnit) {
   EXPECT_EQ(feet.crs, "EPSG:2225");
   EXPECT_NEAR(feet.unit, 1200.0 / 3937, 1e-12);
   EXPECT_NEAR(feet.points[3].x(), 4 * 0.3048006F, 1e-6F);
+  EXPECT_TRUE(warned("its coordinate reference system counts in units of 0.3048006 m")) << warnings();
 
   const std::string wkt =
       R"(COMPD_CS["c",PROJCS["UTM",GEOGCS["g",UNIT["degree",0.017]],PARAMETER["a",1],UNIT["metre",1,AUTHORITY["EPSG","9001"]]],VERT_CS["v",UNIT["ft",0.3]]])";

@@ -9,6 +9,7 @@
 #include "modules/object/poisson.hpp"
 #include "modules/object/surface.hpp"
 #include "tests/support/sphere.hpp"
+#include "tests/support/warnings.hpp"
 
 namespace atrium::object::object_test {
 namespace {
@@ -107,6 +108,23 @@ TEST(ObjectPoisson, TrimOfThreeSpacings) {
   EXPECT_NEAR(spacing, std::sqrt(std::numbers::pi / 8000), 0.004);
   EXPECT_EQ(area_of(mesh_of<Poisson>(open, {6, 1.5, 4, 0})), area_of(mesh_of<Poisson>(open, {6, 1.5, 4, 3 * spacing})));
   EXPECT_LT(area_of(mesh_of<Poisson>(open, {6, 1.5, 4, 0})), area_of(mesh_of<Poisson>(open, {6, 1.5, 4, 0.2})));
+}
+
+TEST(ObjectPoisson, CopiesWithoutASpacingHaveTheUsualDepthAndTrim) {
+  const Cloud once = sphere(1500);
+  Cloud copies = once;
+  for (int i = 1; i < 20; ++i) {
+    copies.points.insert(copies.points.end(), once.points.begin(), once.points.end());
+    copies.normals.insert(copies.normals.end(), once.normals.begin(), once.normals.end());
+    copies.colours.insert(copies.colours.end(), once.colours.begin(), once.colours.end());
+  }
+  test::Warnings warnings;
+  const double area = area_of(Poisson::run({input(copies)}, {0, 1.5, 4, 0}, warnings.context()).mesh);
+  ASSERT_EQ(warnings.texts().size(), 1U);
+  EXPECT_TRUE(warnings.texts()[0].ends_with("depth 8 and trim 0.06 m stand for those that follow it"));
+  EXPECT_GT(area, 2);
+  EXPECT_EQ(area, area_of(Poisson::run({input(copies)}, {8, 1.5, 4, 0.06}, warnings.context()).mesh));
+  EXPECT_EQ(warnings.texts().size(), 1U);
 }
 
 TEST(ObjectPoisson, RefusesATooCoarseDepth) { EXPECT_THROW(mesh_of<Poisson>(sphere(100), {2, 1.5, 4, 0.06}), Error); }

@@ -75,7 +75,7 @@ TEST_F(Pdf, HoldsItsFontsAndNoPixels) {
   EXPECT_EQ(count, 2U) << "the list's head only";
 }
 
-// What is drawn is what the SVG shows: both on one raster.
+// The page has the SVG's size and places: both are drawn by librsvg, so this is no check of how it draws.
 TEST_F(Pdf, LooksAsTheSvgDoes) {
   ATRIUM_SKIP_WITHOUT_POPPLER();
   if (!test::has_program("rsvg-convert")) ATRIUM_SKIP_LACKING("librsvg2-bin is not installed");
@@ -124,6 +124,28 @@ TEST_F(Pdf, EachStoreyHasAPageOfOneScaleAndSize) {
   EXPECT_TRUE(std::regex_search(info(), std::regex("Pages: +1\n")));
   params.storey = 2;
   EXPECT_THROW(write(floorplan::plan_of(b.mesh), params), Error);
+}
+
+TEST_F(Pdf, AllPagesAreAsLargeWhereOneIsLargerThanA0) {
+  ATRIUM_SKIP_WITHOUT_POPPLER();
+  WritePlan::Params params;
+  params.scale = 50;
+  for (const Eigen::Vector2d& upper : {Eigen::Vector2d(70, 45), Eigen::Vector2d(75, 5)}) {  // 140 × 90 cm, 150 × 10 cm
+    floorplan::MeshBuilder b;
+    b.room(0, 0, 30, 20);  // on A1
+    b.storey = 1;
+    b.room(0, 0, upper.x(), upper.y(), 2.8, 5.3);
+    write(floorplan::plan_of(b.mesh), params);
+    const std::string about = info();
+    std::smatch first, second;
+    ASSERT_TRUE(std::regex_search(about, first, std::regex("Page +1 size: +([0-9.]+) x ([0-9.]+) pts"))) << about;
+    ASSERT_TRUE(std::regex_search(about, second, std::regex("Page +2 size: +([0-9.]+) x ([0-9.]+) pts"))) << about;
+    EXPECT_EQ(first[1], second[1]);
+    EXPECT_EQ(first[2], second[2]);
+    EXPECT_GT(std::stod(first[1]) / 72 * 0.0254, upper.x() / params.scale);
+    const std::string shown = text();
+    for (const char* part : {"Storey 0", "Storey 1", " mm"}) EXPECT_TRUE(has(shown, part)) << part << " in " << shown;
+  }
 }
 
 TEST_F(Pdf, FeetAndInches) {

@@ -187,6 +187,34 @@ TEST(Snapshot, FitMovesTheCameraUntilAllIsSeen) {
   EXPECT_EQ(room_from(params).pixels, fitted.pixels);
 }
 
+TEST(Snapshot, FitLeavesTheColourBarItsPlace) {
+  Cloud cloud;  // wide, so that the picture's width decides
+  add_box(cloud.points, 0, 0, 8, 1, 1);
+  Snapshot::Params params;
+  params.width = 400;
+  params.height = 300;
+  params.text_size = 0.05;  // the bar takes 127 pixels
+  params.colour_by = Snapshot::ColourBy::height;
+  params.legend = false;
+  params.eye = {4, -20, 0.5};
+  params.target = {4, 0, 0.5};
+  params.fit = true;
+  Context context(1, std::make_shared<Folder>());
+  // How many pixels of a column are of the box, which stands in the middle of the part that is left.
+  const auto rows_at = [&](int x) {
+    const Picture picture = Snapshot::run({.cloud = input(cloud)}, params, context).pictures.pictures.at(0);
+    int rows = 0;
+    for (int y = 0; y < 300; ++y)
+      rows += pixel(picture, (x + 0.5) / 400, (y + 0.5) / 300) == Colour{255, 255, 255} ? 0 : 1;
+    return rows;
+  };
+  const int beside_the_bar = rows_at(60);
+  params.scale_bar = false;
+  const int alone = rows_at(60);
+  EXPECT_GT(beside_the_bar, 15);
+  EXPECT_NEAR(static_cast<double>(beside_the_bar) / alone, 273.0 / 400, 0.12);
+}
+
 TEST(Snapshot, PicturesOfOneViewWidthHaveOneScale) {
   Context context(1, std::make_shared<Folder>());
   Snapshot::Params params;
