@@ -8,6 +8,7 @@
 #include <map>
 
 #include "graph/api/error.hpp"
+#include "modules/layout/doorways.hpp"
 #include "modules/layout/enclosure.hpp"
 
 namespace atrium::layout {
@@ -349,6 +350,7 @@ void measure_coverage(const Structure& structure, const std::vector<Footprint>& 
   const bool scanned = ceiling_scanned(storey);
   const std::vector<bool> hanging = hanging_walls(structure, footprints, storey);
   for (auto& edge : storey.edges) measure_edge(structure, footprints, hanging, pixel, scanned, storey, edge);
+  if (!scanned) close_doorways(storey);
   measure_enclosure(storey);
 }
 

@@ -21,7 +21,7 @@ class WallMap {
       : storey_(storey),
         // Where ceilings were scanned, walls that enclose a room without one are as high: a garden's are not.
         least_top_(ceiling_scanned(storey) ? storey.floor_height + 0.9 * (storey.ceiling_height - storey.floor_height)
-                                           : least_wall_top(storey.floor_height, storey.ceiling_height)) {
+                                           : least_wall_top(storey)) {
     constexpr double finest = 0.1, most_squares = 1 << 24;
     for (const auto& v : storey.vertices) box_.extend(v);
     if (box_.isEmpty()) return;

@@ -9,7 +9,15 @@ namespace atrium::layout {
 /// Edges must have been measured. Cost: 16 ways of at most 20 m for each cell, on squares of 10 cm or more.
 void measure_enclosure(StoreyCells& storey);
 
-/// The height at which a wall ends at least: what ends below 60 % of a storey's height is furniture. Metres.
-inline double least_wall_top(double floor, double ceiling) { return floor + 0.6 * (ceiling - floor); }
+/// The height at which a wall ends at least, metres: what ends below 60 % of a storey's height is furniture. Where no
+/// ceiling was scanned and the scanner saw the lower part of most walls only (a robot's does), 70 % of what it saw of
+/// them. `storey`: StoreyCells or StoreyPlanes.
+template <class Storey>
+double least_wall_top(const Storey& storey) {
+  constexpr double of_storey = 0.6, of_walls = 0.7;
+  const double top = of_storey * (storey.ceiling_height - storey.floor_height);
+  if (storey.wall_end <= storey.floor_height) return storey.floor_height + top;
+  return storey.floor_height + std::min(top, of_walls * (storey.wall_end - storey.floor_height));
+}
 
 }  // namespace atrium::layout

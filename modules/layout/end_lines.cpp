@@ -87,7 +87,7 @@ class Ends {
   }
 
   bool is_tall(const WallLine& wall) const {
-    const double least_top = least_wall_top(planes_.floor_height, planes_.ceiling_height);
+    const double least_top = least_wall_top(planes_);
     return std::any_of(wall.primitives.begin(), wall.primitives.end(),
                        [&](std::int32_t i) { return raster(i).high().y() >= least_top; });
   }

@@ -108,17 +108,25 @@ bool name_hole(const Openings::Params& params, const BuildingFace& face, const E
   return true;
 }
 
-/// Whether a hole may be the upper part of a door: it is as high, and what is below it is hidden.
-bool has_hidden_foot(const FaceEvidence& evidence, const FaceHole& hole) {
-  constexpr double least_top = 1.7, most = 0.5;  // metres over the foot; share that may be solid
-  const double foot = evidence.mask.box().min().y();
-  if (hole.box.max().y() < foot + least_top) return false;
-  Eigen::AlignedBox2d below = hole.box;
-  below.max().y() = hole.box.min().y();
-  below.min().y() = foot;
-  const Eigen::AlignedBox2i squares = evidence.mask.squares_in(below);
-  return static_cast<double>(evidence.mask.count(squares, Square::solid)) <=
+/// Whether most of the face was seen between two heights below a hole.
+bool is_solid_below(const FaceMask& mask, const FaceHole& hole, double low, double high) {
+  constexpr double most = 0.5;
+  const Eigen::AlignedBox2i squares =
+      mask.squares_in({Eigen::Vector2d(hole.box.min().x(), low), Eigen::Vector2d(hole.box.max().x(), high)});
+  return static_cast<double>(mask.count(squares, Square::solid)) >
          most * (squares.sizes().x() + 1.0) * (squares.sizes().y() + 1.0);
+}
+
+/// Whether a hole may be the upper part of a door: it is as high, and what is below it is hidden. A strip of wall right
+/// below it is a sill, whatever hides the rest (a radiator, mostly).
+bool has_hidden_foot(const FaceEvidence& evidence, const FaceHole& hole) {
+  constexpr double least_top = 1.7, sill = 0.15;  // metres over the foot; below the hole
+  const FaceMask& mask = evidence.mask;
+  const double foot = mask.box().min().y(), bottom = hole.box.min().y();
+  if (hole.box.max().y() < foot + least_top) return false;
+  const double edge = mask.pixel() + evidence.spacing;
+  if (is_solid_below(mask, hole, std::max(foot, bottom - std::max(sill, 3 * edge)), bottom - edge)) return false;
+  return !is_solid_below(mask, hole, foot, bottom);
 }
 
 /// How much of the face was seen in a box of its squares.

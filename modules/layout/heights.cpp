@@ -132,12 +132,33 @@ class Labelling {
     return patches;
   }
 
-  /// A patch that shows too little of its surface to be one: a quarter, or half of a small one; a small one beside an
-  /// inferred surface never shows enough.
-  bool is_weak(std::size_t label, const Patch& patch) const {
-    constexpr double hardly = 0.25, half = 0.5;
+  /// The surface beside a patch that has the longest border with it.
+  static std::size_t neighbour_of(const Patch& patch) {
+    return std::max_element(patch.beside.begin(), patch.beside.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
+  }
+
+  /// The share of a surface's patches that shows it.
+  double shown(std::size_t label, const Patches& patches) const {
+    double area = 0, seen = 0;
+    for (const auto& [first, patch] : patches) {
+      if (labels_[first] != label) continue;
+      area += patch.area;
+      seen += patch.seen;
+    }
+    return area > 0 ? seen / area : 0;
+  }
+
+  /// A patch that shows too little of its surface to be one: a quarter, two fifths of it beside a surface that shows
+  /// twice as much, or half of a small one; a small one beside an inferred surface never shows enough. Undersides of
+  /// beams make such patches, where the ceiling over them was not seen.
+  bool is_weak(std::size_t label, const Patch& patch, const Patches& patches) const {
+    constexpr double hardly = 0.25, less = 0.4, half = 0.5;
     if (patch.beside.empty() || surfaces_[label].primitive < 0) return false;
-    if (patch.area >= params_.min_patch) return patch.seen < hardly * patch.area;
+    if (patch.area >= params_.min_patch)
+      return patch.seen < hardly * patch.area ||
+             (patch.seen < less * patch.area && patch.seen < half * patch.area * shown(neighbour_of(patch), patches));
     return patch.seen < half * patch.area ||
            std::any_of(patch.beside.begin(), patch.beside.end(),
                        [&](const auto& other) { return surfaces_[other.first].primitive < 0; });
@@ -152,13 +173,11 @@ class Labelling {
     const Patches patches = patches_of(sets, covers);
     const Patches::value_type* least = nullptr;
     for (const auto& patch : patches)
-      if (is_weak(labels_[patch.first], patch.second) && (least == nullptr || patch.second.area < least->second.area))
+      if (is_weak(labels_[patch.first], patch.second, patches) &&
+          (least == nullptr || patch.second.area < least->second.area))
         least = &patch;
     if (least == nullptr) return false;
-    const auto& beside = least->second.beside;
-    const std::size_t to = std::max_element(beside.begin(), beside.end(), [](const auto& a, const auto& b) {
-                             return a.second < b.second;
-                           })->first;
+    const std::size_t to = neighbour_of(least->second);
     for (std::size_t e = 0; e < cells_.size(); ++e)
       if (sets.find_set(e) == least->first) labels_[e] = to;
     return true;

@@ -46,7 +46,7 @@ struct Heights {
       param<&Params::min_patch>(
           square_metres, within(0, 1e6),
           "Part of a floor or ceiling that must show half of its surface to be one of its own; a larger part must "
-          "show a quarter. 0: all stay as the labelling has them.")};
+          "show a quarter, or two fifths beside one that shows twice as much. 0: all stay as the labelling has them.")};
   static Out run(const In& in, const Params& params, Context& context);
 };
 

@@ -90,10 +90,7 @@ class Levels {
         if (const double enclosed = shelter.enclosed(l.primitive); enclosed > mostly)
           l.sheltered = std::max(l.sheltered, enclosed);
       best = std::max(best, l.area * l.sheltered);
-      if (l.area < least_raised) continue;
-      const Shelter::Piece piece = shelter.largest_piece(l.primitive);
-      l.raised = piece.area >= least_raised && piece.walled >= least_walled &&
-                 shelter.under_low_ceiling(l.primitive) <= most_low;
+      l.raised = l.area >= least_raised && shelter.raised(l.primitive);
     }
     if (best >= limits_.least_area) return;
     for (Candidate& l : levels_) l.sheltered = 1;
@@ -133,10 +130,13 @@ class Levels {
     if (is_steep(l)) return true;
     if (l.sheltered < least_sheltered || !is_wide(l)) return false;
     if (l.raised) return true;
+    // The floor ends where an alcove's bed begins; what is seen under it or before it is little.
+    constexpr double some = 0.05;
     return std::none_of(larger.begin(), larger.end(), [&](const Candidate* floor) {
       if (is_steep(*floor)) return false;
       const double over = l.height - floor->height;
-      return over > step_height && over < limits_.clearance && share_over(l, *floor) > much;
+      const bool bed = !l.slanted && l.area < large_raised && over < bed_height;
+      return over > step_height && over < limits_.clearance && share_over(l, *floor) > (bed ? some : much);
     });
   }
 

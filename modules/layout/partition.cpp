@@ -21,6 +21,7 @@ StoreyCells cut_storey(const StoreyPlanes& planes, const std::vector<Footprint>&
   storey.high = planes.high;
   storey.floor_height = planes.floor_height;
   storey.ceiling_height = planes.ceiling_height;
+  storey.wall_end = planes.wall_end;
   storey.floors = planes.floors;
   storey.ceilings = planes.ceilings;
   const Eigen::AlignedBox2d box = extent_of({&planes.floors, &planes.ceilings}, planes.lines, footprints);

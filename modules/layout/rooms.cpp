@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
 #include <numeric>
+#include <utility>
 
 #include "modules/layout/coverage.hpp"
 #include "modules/layout/enclosure.hpp"
 #include "modules/layout/hidden_walls.hpp"
 #include "modules/layout/min_cut.hpp"
+#include "modules/layout/room_necks.hpp"
 
 namespace atrium::layout {
 namespace {
@@ -59,23 +61,30 @@ class Energy {
   void add_edge(std::size_t index) {
     const CellEdge& edge = storey_.edges[index];
     const double area = length_of(storey_, edge) * (storey_.ceiling_height - storey_.floor_height);
-    vote(edge.left, edge.right, edge.wall_left * area);
-    vote(edge.right, edge.left, edge.wall_right * area);
+    const double left = ends_room(edge.wall_left, edge.face_left, edge.top_left);
+    const double right = ends_room(edge.wall_right, edge.face_right, edge.top_right);
+    vote(edge.left, edge.right, (is_cut_wall(edge.right) ? left : edge.wall_left) * area);
+    vote(edge.right, edge.left, (is_cut_wall(edge.left) ? right : edge.wall_right) * area);
     const double left_inside =
-        area * (params_.smoothness *
-                    (1 - std::max(ends_room(edge.wall_left, edge.face_left, edge.top_left), hidden_.left[index])) +
-                params_.complexity);
+        area * (params_.smoothness * (1 - std::max(left, hidden_.left[index])) + params_.complexity);
     const double right_inside =
-        area * (params_.smoothness *
-                    (1 - std::max(ends_room(edge.wall_right, edge.face_right, edge.top_right), hidden_.right[index])) +
-                params_.complexity);
+        area * (params_.smoothness * (1 - std::max(right, hidden_.right[index])) + params_.complexity);
     cut_.add_pair(element(edge.left), element(edge.right), right_inside, left_inside);
   }
 
   /// Where no ceiling was scanned, walls end at different heights: those that are tall may end a room.
   double ends_room(double wall, double face, double top) const {
-    const bool tall = top >= least_wall_top(storey_.floor_height, storey_.ceiling_height);
+    const bool tall = top >= least_wall_top(storey_);
     return !ceiling_ && tall ? std::max(wall, face) : wall;
+  }
+
+  /// Whether a cell is as thin as a wall (what stands behind the front of a cupboard is not), in a storey many of whose
+  /// walls were not seen up to their ends.
+  bool is_cut_wall(std::int32_t cell) const {
+    constexpr double thickest = 0.25, cut = 0.93;
+    const double end = storey_.wall_end - storey_.floor_height;
+    return cell >= 0 && end > 0 && end < cut * (storey_.ceiling_height - storey_.floor_height) &&
+           width_of(storey_, storey_.cells[element(cell)]) <= thickest;
   }
 
   void vote(std::int32_t front, std::int32_t back, double area) {
@@ -139,6 +148,16 @@ struct Room {
   std::vector<std::size_t> cells;
 };
 
+Room room_of(const StoreyCells& storey, std::size_t index, std::vector<std::size_t> cells) {
+  Room room{index, 0, 0, std::move(cells)};
+  for (const auto i : room.cells) {
+    const LayoutCell& cell = storey.cells[i];
+    room.area += cell.area;
+    room.seen += cell.area * std::max({cell.floor_cover, cell.ceiling_cover, cell.any_cover});
+  }
+  return room;
+}
+
 std::vector<Room> connected(const StoreyCells& storey, std::size_t index, const std::vector<bool>& inside) {
   std::vector<std::size_t> rank(storey.cells.size()), parent(storey.cells.size());
   boost::disjoint_sets<std::size_t*, std::size_t*> sets(rank.data(), parent.data());
@@ -151,17 +170,12 @@ std::vector<Room> connected(const StoreyCells& storey, std::size_t index, const 
     const auto b = static_cast<std::size_t>(edge.right);
     if (inside[a] && inside[b]) sets.union_set(a, b);
   }
-  std::vector<Room> rooms(storey.cells.size());
-  for (std::size_t i = 0; i < storey.cells.size(); ++i) {
-    if (!inside[i]) continue;
-    const LayoutCell& cell = storey.cells[i];
-    Room& room = rooms[sets.find_set(i)];
-    room.storey = index;
-    room.area += cell.area;
-    room.seen += cell.area * std::max({cell.floor_cover, cell.ceiling_cover, cell.any_cover});
-    room.cells.push_back(i);
-  }
-  std::erase_if(rooms, [](const Room& room) { return room.cells.empty(); });
+  std::vector<std::vector<std::size_t>> parts(storey.cells.size());
+  for (std::size_t i = 0; i < storey.cells.size(); ++i)
+    if (inside[i]) parts[sets.find_set(i)].push_back(i);
+  std::vector<Room> rooms;
+  for (const auto& part : parts)
+    for (auto& cells : parted_at_necks(storey, part)) rooms.push_back(room_of(storey, index, std::move(cells)));
   return rooms;
 }
 

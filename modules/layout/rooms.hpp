@@ -19,7 +19,8 @@ namespace atrium::layout {
 ///   `smoothness`, and all of it `complexity`. Where both faces of a wall run on beside a cell that shows no ceiling,
 ///   the wall goes on, hidden by what stands before it.
 ///
-/// Rooms are what hangs together, but not through a wall so thin that its two faces share a line; a room of less than
+/// Rooms are what hangs together, but not through a wall so thin that its two faces share a line, nor through a neck of
+/// less than 40 cm (parted_at_necks); a room of less than
 /// min_area is outside, and one with less than min_cover of its area seen: of each cell counts what covers most of it,
 /// floor, ceiling or points between them. Rooms are numbered by falling area, through all storeys.
 ///

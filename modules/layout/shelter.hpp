@@ -6,11 +6,10 @@
 
 namespace atrium::layout {
 
-constexpr double least_walled = 0.7;      ///< of the rim of a raised floor; a bed in a corner has half
 constexpr double least_raised = 3.0;      ///< m²: a smaller level surface over the floor is furniture
+constexpr double large_raised = 5.0;      ///< m²: beds are smaller
+constexpr double bed_height = 1.0;        ///< m: beds are lower
 constexpr double least_sheltered = 0.25;  ///< of a floor: less of it than this is the ground outside
-
-constexpr double most_low = 0.7;  ///< of a raised floor under which one cannot stand: a worktop
 
 /// How far a floor is part of a building, told by what stands over and around it: the ground outside that a scan shows
 /// through windows can be larger than all rooms.
@@ -26,6 +25,11 @@ class Shelter {
   /// Share of directions, from places of the floor and level with its walls, in which a wall stands that looks towards
   /// the place, with no wall's back before it. Near 1 in rooms, whatever their size; below 0.5 beside a facade.
   double enclosed(std::size_t floor) const;
+  /// Whether a level surface over a floor is one, too: one can stand on most of it, and walls stand around its largest
+  /// connected piece. Around one of a bed's size on all sides, since a bed often fills an alcove.
+  bool raised(std::size_t floor) const;
+
+ private:
   /// The largest connected piece of a floor.
   struct Piece {
     double area = 0;    ///< square metres
@@ -33,8 +37,6 @@ class Shelter {
                         ///< of a bed in a corner
   };
   Piece largest_piece(std::size_t floor) const;
-
- private:
   struct Wall {
     Eigen::Vector2d a, b;    ///< ends in plan
     Eigen::Vector2d normal;  ///< towards the side that it was seen from

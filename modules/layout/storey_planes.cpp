@@ -81,12 +81,13 @@ class Storey {
     if (tops_.empty() && (planes_.floors.empty() || planes_.ceilings.empty()))
       throw Error(fmt::format("storey {} has no walls, and not both a floor and a ceiling", index_),
                   "a room needs planes around it: does the scan show one?");
-    constexpr double most = 0.8;
+    constexpr double most = 0.8, many = 0.4;
     planes_.floor_height = planes_.floors.empty() ? quantile(bottoms_, 1 - most) : height(*largest(planes_.floors));
     const bool scanned =
         !planes_.ceilings.empty() && (tops_.empty() || 3 * area(planes_.ceilings) >= area(planes_.floors));
     planes_.ceiling_height = scanned ? height(*largest(planes_.ceilings)) : quantile(tops_, most);
     if (planes_.floors.empty()) planes_.floors.push_back({{{0, 0, 1}, -planes_.floor_height}, -1, {}});
+    if (!scanned) planes_.wall_end = quantile(tops_, many);
     if (!scanned) planes_.ceilings.push_back({{{0, 0, -1}, planes_.ceiling_height}, -1, {}});
   }
 

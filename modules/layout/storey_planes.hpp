@@ -12,6 +12,7 @@ namespace atrium::layout {
 struct StoreyPlanes {
   double low = 0, high = 0;
   double floor_height = 0, ceiling_height = 0;
+  double wall_end = unknown_top;  ///< below which two fifths of the walls end, if no ceiling was scanned
   std::vector<CellSurface> floors, ceilings;
   std::vector<WallLine> lines;  ///< walls by falling area, then meeting lines of slanted surfaces
 };

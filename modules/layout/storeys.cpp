@@ -98,10 +98,7 @@ class Finder {
       if (const double enclosed = l.sheltered < mostly ? shelter.enclosed(l.primitive) : 0; enclosed > mostly)
         l.sheltered = std::max(l.sheltered, enclosed);
       best = std::max(best, l.sheltered_area());
-      if (l.slanted || l.area < least_raised) continue;
-      const Shelter::Piece piece = shelter.largest_piece(l.primitive);
-      l.raised = piece.area >= least_raised && piece.walled >= least_walled &&
-                 shelter.under_low_ceiling(l.primitive) <= most_low;
+      l.raised = !l.slanted && l.area >= least_raised && shelter.raised(l.primitive);
     }
     double left_out = 0;
     for (Level& l : levels_) {
@@ -245,6 +242,11 @@ class Finder {
     return walls;
   }
 
+  /// Whether a level surface has a bed's size and height: much of the floor of a small room.
+  static bool is_bed(const Level& l, double ground) {
+    return l.area < large_raised && l.height > ground + low_step && l.height < ground + bed_height;
+  }
+
   void sort_levels(std::int32_t storey, Structure& result) const {
     const Level* main_ceiling = largest(storey, [](const Level& l) { return !l.up; });
     const std::vector<WallLine> walls = walls_of(storey);
@@ -265,7 +267,7 @@ class Finder {
       if (l.up && l.sheltered < least_sheltered) continue;
       const bool is_floor = l.up && main_floor != nullptr && !stands_on(l, *main_floor) &&
                             (l.height <= ground + (l.raised ? params_.max_step : low_step) ||
-                             ((l.area >= main_share * main_floor->area || l.raised) &&
+                             (((l.area >= main_share * main_floor->area && !is_bed(l, ground)) || l.raised) &&
                               ((main_ceiling != nullptr && main_ceiling->height - l.height >= params_.min_clearance) ||
                                has_ceiling_of_its_own(l))));
       const bool is_ceiling =

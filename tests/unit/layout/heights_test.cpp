@@ -22,6 +22,25 @@ StoreyCells settled(const StoreyCells& storey, const Heights::Params& params = {
   return Heights::run({input(cells)}, params, context).cells.storeys[0];
 }
 
+/// Whether each of sixteen squares under a ceiling at 2.5 m, of which half was seen on the left, gets that one where a
+/// lower one was seen over `share` of the right half.
+bool is_one_ceiling(double share) {
+  StoreyCells storey = grid_cells({"aaaa", "aaaa", "aaaa", "aaaa"});
+  storey.ceilings.push_back(level(1.9, false));
+  for (auto& cell : storey.cells) {
+    const bool left = middle_of(storey, cell).x() < 2;
+    cell.ceilings = {{left ? 0 : 1, left ? 0.9 : share}};
+  }
+  const StoreyCells result = settled(storey);
+  return std::all_of(result.cells.begin(), result.cells.end(),
+                     [](const LayoutCell& cell) { return cell.ceiling == 0; });
+}
+
+TEST(Heights, UndersidesOfBeamsAreNoCeilingBesideOneThatShowsTwiceAsMuch) {
+  EXPECT_TRUE(is_one_ceiling(0.35));
+  EXPECT_FALSE(is_one_ceiling(0.5));
+}
+
 /// What a choice of floors costs: the area over which another one was seen, less where that is near, and steps.
 class FloorEnergy {
  public:

@@ -1,6 +1,7 @@
 // What tells floors from worktops and shelves: how wide a surface is, and whether one can stand on it.
 #include <gtest/gtest.h>
 
+#include "modules/layout/level_surfaces.hpp"
 #include "modules/layout/raster.hpp"
 #include "modules/layout/shelter.hpp"
 #include "tests/support/rooms.hpp"
@@ -44,6 +45,31 @@ TEST(Levels, UnderALowCeilingNobodyStands) {
   EXPECT_NEAR(low(1.2, 0, 2), 0.5, 0.05) << "a half";
   EXPECT_LT(low(2.5, 0, 4), 0.05);
   EXPECT_LT(low(1.2, 0, 0.5), 0.05) << "a shelf of 1.5 m2 over it is no ceiling";
+}
+
+/// Heights of the floors of a room of 4 m × 3 m with a level surface at 0.5 m over a corner of it: of `deep` m by 2 m,
+/// with walls (which stand on it) along as many of its sides as said.
+std::vector<double> floors_with_platform(double deep, int walled) {
+  Scene scene;
+  scene.floor(0, 0, 4, 3, 0, [&](const Eigen::Vector3d& p) { return p.x() > 2 || p.y() > deep; });
+  scene.ceiling(0, 0, 4, 3).floor(0, 0, 2, deep, 0.5);
+  scene.wall(2, 0, 4, 0).wall(4, 0, 4, 3).wall(4, 3, 0, 3).wall(0, 3, 0, deep);
+  scene.wall(0, deep, 0, 0).wall(0, 0, 2, 0);
+  if (walled > 2) scene.wall(2, 0, 2, deep);
+  if (walled > 3) scene.wall(2, deep, 0, deep);
+  const PlanePrimitives planes = scene.planes();
+  std::vector<double> heights;
+  for (const auto& level : level_surfaces(planes, layout::footprints(planes, 0.05, Context()), 0.05, {}))
+    if (level.up) heights.push_back(level.height);
+  std::sort(heights.begin(), heights.end());
+  return heights;
+}
+
+TEST(Levels, ABedInAnAlcoveIsNoFloorAndARaisedRoomIs) {
+  EXPECT_EQ(floors_with_platform(1.8, 2).size(), 1U) << "a bed in a corner";
+  EXPECT_EQ(floors_with_platform(1.8, 3).size(), 1U) << "a bed in an alcove";
+  EXPECT_EQ(floors_with_platform(1.8, 4).size(), 2U) << "a raised room";
+  EXPECT_EQ(floors_with_platform(2.8, 3).size(), 2U) << "larger than a bed, and open to one side";
 }
 
 }  // namespace
