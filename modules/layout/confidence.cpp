@@ -11,6 +11,7 @@
 #include "modules/layout/doubled_walls.hpp"
 #include "modules/layout/floor_beyond.hpp"
 #include "modules/layout/kept_rooms.hpp"
+#include "modules/layout/mirror_images.hpp"
 #include "modules/layout/room_doubts.hpp"
 #include "modules/layout/slopes_left_out.hpp"
 #include "modules/types/building_rules.hpp"
@@ -168,6 +169,20 @@ void judge(const PlanePrimitives& planes, const DoubledWalls& doubled, const Fra
   judge_doubled(doubled, building);
 }
 
+/// The image of a room in a mirror is no room.
+void judge_mirror_images(const PlanePrimitives& planes, Building& building) {
+  constexpr double unlikely = 0.3;
+  for (const MirrorImage& image : mirror_images(building, planes)) {
+    BuildingRoom& room = building.rooms[image.room];
+    room.confidence *= unlikely;
+    room.doubts.insert(
+        room.doubts.begin(),
+        fmt::format("{:.0f} % of what stands in it stands in {}, too, mirrored at a wall: is it the image "
+                    "in a mirror or a window?",
+                    100 * image.share, building.rooms[image.of].name));
+  }
+}
+
 [[noreturn]] void refuse(const std::string& why) {
   throw Error("the scan shows no room: " + why,
               "scan the floor or the ceiling and most of the walls around it; check that z points up and the lengths "
@@ -197,15 +212,17 @@ Confidence::Out Confidence::run(const In& in, const Params& params, Context& con
   std::vector<Footprint> walls = footprints(planes, column, context);
   find_open_tops(planes, walls, context);
   const auto evidence = room_evidence(building, planes, face_grids(building, planes, context), walls);
+  for (std::size_t r = 0; r < building.rooms.size(); ++r) {
+    Verdict verdict = verdict_of(building.rooms[r], evidence[r]);
+    building.rooms[r].confidence = verdict.confidence;
+    building.rooms[r].doubts = std::move(verdict.doubts);
+  }
+  judge_mirror_images(planes, building);
   std::vector<bool> kept;
   std::size_t best = 0;
   for (std::size_t r = 0; r < building.rooms.size(); ++r) {
-    BuildingRoom& room = building.rooms[r];
-    Verdict verdict = verdict_of(room, evidence[r]);
-    room.confidence = verdict.confidence;
-    room.doubts = std::move(verdict.doubts);
-    kept.push_back(room.confidence >= params.min_confidence);
-    if (room.confidence > building.rooms[best].confidence) best = r;
+    kept.push_back(building.rooms[r].confidence >= params.min_confidence);
+    if (building.rooms[r].confidence > building.rooms[best].confidence) best = r;
   }
   if (building.rooms.empty()) refuse("the building has none");
   if (std::find(kept.begin(), kept.end(), true) == kept.end())

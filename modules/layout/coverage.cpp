@@ -232,7 +232,8 @@ double top_at(const Footprint& wall, const Eigen::Vector2d& p, const StoreyCells
 /// part.
 std::vector<bool> hanging_walls(const Structure& structure, const std::vector<Footprint>& footprints,
                                 const StoreyCells& storey) {
-  constexpr double head = 1.8;  // metres
+  constexpr double person = 1.8, of_height = 0.8;  // metres; where one stoops
+  const double head = std::min(person, of_height * (storey.ceiling_height - storey.floor_height));
   std::vector<bool> hanging(footprints.size(), false);
   double all = 0, above = 0;
   for (const auto& line : storey.lines)

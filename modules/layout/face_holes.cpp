@@ -226,6 +226,17 @@ bool leads_on(const FaceEvidence& evidence, const FaceHole& hole, const Openings
   return leaf >= per_square * inner.volume() || (floor >= few && 2 * covered >= strips.size());
 }
 
+/// Whether the floor goes on behind a hole that meets it and of which everything was in sight: of a door without a
+/// reveal nothing else shows.
+bool is_clean_doorway(const FaceMask& mask, const FaceEvidence& evidence, const FaceHole& hole,
+                      const Openings::Params& params) {
+  constexpr double clean = 0.8;  // squares beside its sides count as wall
+  if (hole.kind != "door" || !leads_on(evidence, hole, params)) return false;
+  const Eigen::AlignedBox2i squares = mask.squares_in(hole.box);
+  return static_cast<double>(mask.count(squares, Square::hole)) >=
+         clean * (squares.sizes().x() + 1.0) * (squares.sizes().y() + 1.0);
+}
+
 /// Leaves out those that touch a larger one: they are its fringe.
 void drop_fringes(std::vector<FaceHole>& holes, const FaceEvidence& evidence) {
   const Eigen::Vector2d near = Eigen::Vector2d::Constant(evidence.spacing + evidence.mask.pixel());
@@ -264,7 +275,8 @@ std::vector<FaceHole> face_holes(const BuildingFace& face, FaceEvidence& evidenc
       evidence.mask.fill(*squares, Square::solid);
       if (!filled) continue;
       FaceHole hole = fitted_hole(*squares, evidence);
-      if (name_hole(params, face, evidence.mask.box(), hole) && seen_through(evidence, hole)) {
+      if (!name_hole(params, face, evidence.mask.box(), hole)) continue;
+      if (seen_through(evidence, hole) || is_clean_doorway(before, evidence, hole, params)) {
         hole.foot = evidence.mask.box().min().y();
         hole.foot_hidden = face.surface == SurfaceClass::wall && has_hidden_foot(evidence, hole);
         hole.leads_on = leads_on(evidence, hole, params);

@@ -24,8 +24,14 @@ double height_share(double height, double area, double ceiling) {
   return ramp(height, 1.2, 2);
 }
 
+std::string hardly_seen(std::string_view what, double share) {
+  constexpr double none = 0.05;
+  return share < none ? fmt::format("its {} was not seen", what)
+                      : fmt::format("only {:.0f} % of its {} was seen", percent(share), what);
+}
+
 std::vector<Doubt> doubts_of(const BuildingRoom& room, const RoomEvidence& e) {
-  constexpr double one_level = 0.85, hardly = 0.1;
+  constexpr double one_level = 0.85, hardly = 0.2, unseen = 0.1;
   std::vector<Doubt> doubts;
   const auto add = [&](double share, std::string reason) { doubts.push_back({share, std::move(reason)}); };
   add(ramp(e.walls, 0.08, 0.4), fmt::format("{:.0f} % of its walls were seen", percent(e.walls)));
@@ -33,9 +39,9 @@ std::vector<Doubt> doubts_of(const BuildingRoom& room, const RoomEvidence& e) {
   add(ramp(e.contact, 0.05, 0.4),
       fmt::format("{:.0f} % of its walls' length stands on a floor or reaches a ceiling", percent(e.contact)));
   add(ramp(std::max(e.floor, e.ceiling), 0.1, 0.5) * (std::min(e.floor, e.ceiling) < hardly ? one_level : 1),
-      e.floor < hardly && e.ceiling < hardly ? "neither its floor nor its ceiling was seen"
-      : e.floor < hardly                     ? "its floor was not seen"
-      : e.ceiling < hardly                   ? "its ceiling was not seen"
+      e.floor < unseen && e.ceiling < unseen ? "neither its floor nor its ceiling was seen"
+      : e.floor < hardly                     ? hardly_seen("floor", e.floor)
+      : e.ceiling < hardly                   ? hardly_seen("ceiling", e.ceiling)
                            : fmt::format("{:.0f} % of its floor and {:.0f} % of its ceiling were seen",
                                          percent(e.floor), percent(e.ceiling)));
   add(height_share(e.headroom, room.area, e.ceiling),

@@ -1,0 +1,114 @@
+#include "modules/layout/mirror_images.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+namespace atrium::layout {
+namespace {
+
+constexpr double cell = 0.1;  // metres: how near an image must be
+
+std::uint64_t key_of(const Eigen::Vector3d& p) {
+  std::uint64_t key = 0;
+  for (int k = 0; k < 3; ++k)
+    key = key << 21U | (static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(p[k] / cell))) & 0x1fffffU);
+  return key;
+}
+
+bool contains(const std::vector<Eigen::Vector3d>& ring, const Eigen::Vector3d& p) {
+  bool inside = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Eigen::Vector3d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+    if (p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) inside = !inside;
+  }
+  return inside;
+}
+
+/// What a room shows.
+struct Content {
+  Eigen::AlignedBox3d box;
+  std::size_t points = 0;                ///< in all
+  std::vector<Eigen::Vector3d> objects;  ///< those off its faces
+  std::unordered_set<std::uint64_t> cells;
+
+  bool near(const Eigen::Vector3d& p) const {
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z)
+          if (cells.count(key_of(p + cell * Eigen::Vector3d(x, y, z))) > 0) return true;
+    return false;
+  }
+};
+
+bool is_at_face(const Building& building, const BuildingRoom& room, const Eigen::Vector3d& p) {
+  return std::any_of(room.faces.begin(), room.faces.end(), [&](std::int32_t f) {
+    return std::abs(building.faces[static_cast<std::size_t>(f)].plane.signed_distance(p)) < cell;
+  });
+}
+
+std::vector<Content> contents_of(const Building& building, const Cloud& cloud) {
+  constexpr std::size_t most = 400000;
+  std::vector<Content> result(building.rooms.size());
+  for (std::size_t r = 0; r < result.size(); ++r)
+    for (const auto f : building.rooms[r].faces)
+      for (const auto v : building.faces[static_cast<std::size_t>(f)].outline)
+        result[r].box.extend(building.vertices[v]);
+  const std::size_t step = std::max<std::size_t>(1, cloud.size() / most);
+  for (std::size_t i = 0; i < cloud.size(); i += step) {
+    const Eigen::Vector3d p = cloud.points[i].cast<double>();
+    for (std::size_t r = 0; r < result.size(); ++r) {
+      const BuildingRoom& room = building.rooms[r];
+      if (!result[r].box.contains(p) || !contains(room.outline, p)) continue;
+      ++result[r].points;
+      result[r].cells.insert(key_of(p));
+      if (!is_at_face(building, room, p)) result[r].objects.push_back(p);
+      break;
+    }
+  }
+  return result;
+}
+
+/// The share of one room's objects that stand where the other one shows something, mirrored at the best of its walls.
+double mirrored_share(const Building& building, const BuildingRoom& room, const Content& content,
+                      const Content& image) {
+  constexpr double off = 0.75;  // metres between the middles: an image is often cut off
+  double best = 0;
+  for (const auto f : room.faces) {
+    const BuildingFace& face = building.faces[static_cast<std::size_t>(f)];
+    if (face.surface != SurfaceClass::wall) continue;
+    const auto mirrored = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+      return p - 2 * face.plane.signed_distance(p) * face.plane.normal;
+    };
+    if ((mirrored(image.box.center()) - content.box.center()).norm() > off) continue;
+    const auto shown = std::count_if(image.objects.begin(), image.objects.end(),
+                                     [&](const Eigen::Vector3d& p) { return content.near(mirrored(p)); });
+    best = std::max(best, static_cast<double>(shown) / static_cast<double>(image.objects.size()));
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<MirrorImage> mirror_images(const Building& building, const PlanePrimitives& planes) {
+  constexpr std::size_t fewest = 300;
+  constexpr double least = 0.7;
+  std::vector<MirrorImage> result;
+  if (building.rooms.size() < 2) return result;
+  const std::vector<Content> contents = contents_of(building, *planes.cloud);
+  for (std::size_t image = 0; image < contents.size(); ++image) {
+    if (contents[image].objects.size() < fewest) continue;
+    for (std::size_t room = 0; room < contents.size(); ++room) {
+      if (contents[room].points <= contents[image].points) continue;
+      const double share = mirrored_share(building, building.rooms[room], contents[room], contents[image]);
+      if (share < least) continue;
+      result.push_back({image, room, share});
+      break;
+    }
+  }
+  return result;
+}
+
+}  // namespace atrium::layout
