@@ -46,6 +46,11 @@ std::string shortened(std::string_view text, std::size_t characters) {
   return {text.begin(), end};
 }
 
+std::string counted(std::size_t count, std::string_view one, std::string_view many) {
+  if (count == 1) return fmt::format("1 {}", one);
+  return many.empty() ? fmt::format("{} {}s", count, one) : fmt::format("{} {}", count, many);
+}
+
 std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
   std::string result;
   for (std::size_t end = 0; (end = text.find(from)) != std::string_view::npos; text.remove_prefix(end + from.size()))

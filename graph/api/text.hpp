@@ -12,6 +12,9 @@ std::size_t count_characters(std::string_view text);
 /// The first so many of them.
 std::string shortened(std::string_view text, std::size_t characters);
 
+/// A count and what it counts: "1 node", "2 nodes", or `many` where that is not `one` with an s, as in "2 points lie".
+std::string counted(std::size_t count, std::string_view one, std::string_view many = {});
+
 /// The text with every `from` replaced by `to`.
 std::string replaced(std::string_view text, std::string_view from, std::string_view to);
 

@@ -33,8 +33,7 @@ void print_json(const LoadResult& result) {
 }
 
 void print_check_summary(const LoadResult& result) {
-  const std::size_t nodes = node_count(result.pipeline);
-  fmt::print("ok: {} node{}", nodes, nodes == 1 ? "" : "s");
+  fmt::print("ok: {}", counted(node_count(result.pipeline), "node"));
   std::string variables, inputs;
   for (const auto& name : result.missing) {
     if (name.starts_with("inputs."))
@@ -49,10 +48,6 @@ void print_check_summary(const LoadResult& result) {
 }
 
 }  // namespace
-
-std::string counted(std::size_t count, std::string_view what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
 
 void print_findings(const LoadResult& result) {
   for (const auto& warning : result.warnings) say("{}\n", to_string(warning));

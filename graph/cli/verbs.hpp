@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "graph/api/text.hpp"
 #include "graph/cache/cache.hpp"
 #include "graph/pipeline/pipeline.hpp"
 
@@ -86,8 +87,6 @@ void say(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
   std::fwrite(whole.data(), 1, whole.size(), stderr);
 }
 
-/// "1 node", "2 nodes".
-std::string counted(std::size_t count, std::string_view what);
 /// "atrium: error: …" on stderr, and below it what would help.
 void print_error(const std::string& message, const std::string& help);
 /// Warnings and errors, on stderr.

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "graph/api/text.hpp"
 #include "modules/geometry/moments.hpp"
 #include "modules/geometry/upright_evidence.hpp"
 #include "modules/types/turn_between.hpp"
@@ -187,7 +188,8 @@ std::pair<Eigen::Vector3d, double> found_up(const PlanePrimitives& planes, const
 }
 
 Eigen::Vector3d direction_of(const std::vector<double>& values) {
-  if (values.size() != 3) throw Error(fmt::format("'up' has {} numbers instead of three", values.size()), "[0, 0, 1]");
+  if (values.size() != 3)
+    throw Error(fmt::format("'up' has {} instead of three", counted(values.size(), "number")), "[0, 0, 1]");
   Eigen::Vector3d direction(values[0], values[1], values[2]);
   if (!direction.allFinite())
     throw Error(fmt::format("'up' is [{}, {}, {}], which is no direction", values[0], values[1], values[2]),

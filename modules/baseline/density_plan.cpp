@@ -8,6 +8,7 @@
 #include "graph/api/error.hpp"
 #include "modules/baseline/plan_image.hpp"
 #include "modules/baseline/ring_outline.hpp"
+#include "modules/geometry/quantile.hpp"
 
 namespace atrium::baseline {
 namespace {
@@ -103,9 +104,7 @@ void set_heights(const Cloud& cloud, const StoreyHeights& heights, const PlanIma
       found[static_cast<std::size_t>(pixel_of(image, cloud.points[i]))].push_back(cloud.points[i].z());
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     auto& z = found[static_cast<std::size_t>(numbers[k])];
-    const auto middle = z.begin() + static_cast<std::ptrdiff_t>(z.size() / 2);
-    std::nth_element(z.begin(), middle, z.end());
-    result[k].height = (z.empty() ? heights.ceiling : *middle) - heights.floor;
+    result[k].height = (z.empty() ? heights.ceiling : median(std::move(z))) - heights.floor;
   }
 }
 

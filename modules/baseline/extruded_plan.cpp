@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "graph/api/text.hpp"
 #include "modules/baseline/density_plan.hpp"
 #include "modules/baseline/storey_heights.hpp"
 #include "modules/geometry/ear_clipping.hpp"
@@ -126,9 +127,9 @@ std::vector<StoreyHeights> heights_of(const Cloud& cloud, const FloorPlan& plan,
         std::any_of(plan.storeys.begin(), plan.storeys.end(), [](const auto& s) { return !(s.height > 0); });
     if (needed)
       context.warn(
-          fmt::format("the plan has {} storeys, the cloud shows {}: heights that the plan does not know are "
+          fmt::format("the plan has {}, the cloud shows {}: heights that the plan does not know are "
                       "those of all of the cloud",
-                      plan.storeys.size(), bounds.size() + 1));
+                      counted(plan.storeys.size(), "storey"), bounds.size() + 1));
   }
   for (auto& h : heights) {
     const double shift = cloud.origin.z() - plan.origin.z();

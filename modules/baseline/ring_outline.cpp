@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "modules/geometry/plan_overlay.hpp"
+#include "modules/geometry/quantile.hpp"
 
 namespace atrium::baseline {
 namespace {
@@ -38,12 +39,6 @@ void split(const PlanRing& ring, std::size_t first, std::size_t last, double tol
   stays[furthest] = 1;
   split(ring, first, furthest, tolerance, stays);
   split(ring, furthest, last, tolerance, stays);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 void turn_to(OutlineSide& side, double direction, double snap_angle) {

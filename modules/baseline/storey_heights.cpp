@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "graph/api/error.hpp"
+#include "modules/geometry/quantile.hpp"
 
 namespace atrium::baseline {
 namespace {
@@ -19,9 +20,7 @@ constexpr double most_bins = 1e6;
 
 double median_near(std::vector<double> heights, double height) {
   std::erase_if(heights, [&](double z) { return std::abs(z - height) > near_height; });
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  return *middle;
+  return median(std::move(heights));
 }
 
 // The local maxima of a profile, three bins wide, that reach the share of the greatest.

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <optional>
 
+#include "graph/api/write_output.hpp"
 #include "modules/building/face_distances.hpp"
 #include "modules/building/heat_map.hpp"
 #include "modules/building/table.hpp"
+#include "modules/geometry/quantile.hpp"
 #include "modules/types/building_rules.hpp"
 
 namespace atrium::building {
@@ -31,14 +33,9 @@ Figures figures_of(std::vector<float> values) {
   double squares = 0;
   for (const float v : values) squares += static_cast<double>(v) * v;
   result.rms = std::sqrt(squares / static_cast<double>(values.size()));
-  const auto at = [&](double share) {
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), place, values.end());
-    return static_cast<double>(*place);
-  };
-  result.median = at(0.5);
+  result.median = static_cast<double>(quantile(values, 0.5));
   for (float& v : values) v = std::abs(v);
-  result.p95 = at(0.95);
+  result.p95 = static_cast<double>(quantile(std::move(values), 0.95));
   return result;
 }
 
@@ -176,11 +173,7 @@ Accuracy::Out Accuracy::run(const In& in, const Params& params, Context& context
   const std::string squares = heat_map_table(faces, in.mesh->origin, cell, params.colour_range);
   for (const auto& [path, text] :
        {std::pair{&params.path, &table}, {&params.picture, &picture}, {&params.heat_maps, &squares}}) {
-    const auto target = context.output(path->path);
-    AtomicFile file(target);
-    file.write(*text);
-    file.commit();
-    context.wrote(target);
+    write_output(context, path->path, *text);
   }
   return {totals(*in.building, faces, specified)};
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "graph/api/text.hpp"
 #include "modules/building/corrections.hpp"
 #include "modules/building/room_measures.hpp"
 #include "modules/types/building_rules.hpp"
@@ -51,8 +52,9 @@ Correct::Out Correct::run(const In& in, const Params& params, Context& context) 
                         params.max_thickness);
   apply_all(draft, corrections);
   check(draft.building);
-  context.info(fmt::format("{} corrections: {} rooms, {} faces, {} openings", corrections.size(),
-                           draft.building.rooms.size(), draft.building.faces.size(), draft.building.openings.size()));
+  context.info(fmt::format("{}: {}, {}, {}", counted(corrections.size(), "correction"),
+                           counted(draft.building.rooms.size(), "room"), counted(draft.building.faces.size(), "face"),
+                           counted(draft.building.openings.size(), "opening")));
   return {std::make_shared<const Building>(std::move(draft.building))};
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "graph/api/text.hpp"
 #include "modules/building/corrections.hpp"
 #include "modules/building/room_measures.hpp"
 
@@ -34,7 +35,7 @@ class FaceDrop {
   RoomShell run() {
     if (is_column()) return without_column();
     const std::vector<std::int32_t> beside = walls_beside(face_);
-    if (beside.size() != 2) ambiguous(fmt::format("{} walls stand beside it", beside.size()));
+    if (beside.size() != 2) ambiguous(counted(beside.size(), "wall stands", "walls stand") + " beside it");
     refuse_openings({face_});
     const Eigen::Vector3d &first = plane(beside[0]).normal, &second = plane(beside[1]).normal;
     if (std::abs(first.dot(second)) < parallel_cosine) return moved({plane(beside[0]), plane(beside[1])});

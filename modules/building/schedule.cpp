@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "graph/api/write_output.hpp"
 #include "modules/building/elements.hpp"
 #include "modules/building/ifc_context.hpp"
 #include "modules/building/opening_size.hpp"
@@ -172,11 +173,7 @@ void Schedule::run(const In& in, const Params& params, Context& context) {
       {params.windows.path, openings_table(building, walls, true)},
       {params.walls.path, walls_table(building, elements)}};
   for (const auto& [path, text] : files) {
-    const auto target = context.output(path);
-    AtomicFile file(target);
-    file.write(text);
-    file.commit();
-    context.wrote(target);
+    write_output(context, path, text);
   }
   return;
 }

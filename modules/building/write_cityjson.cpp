@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "graph/api/write_output.hpp"
 #include "modules/building/city_model.hpp"
 #include "modules/building/upright_building.hpp"
 #include "modules/types/building_rules.hpp"
@@ -21,11 +22,7 @@ void WriteCityjson::run(const In& in, const Params& params, Context& context) {
   if (upright.building.rooms.empty()) context.warn("the building has no rooms: the file has none");
   const CityModel model = city_model(upright.building, {params.title, epsg});
   for (const auto& warning : model.warnings) context.warn(warning);
-  const auto target = context.output(params.path.path);
-  AtomicFile file(target);
-  file.write(model.text);
-  file.commit();
-  context.wrote(target);
+  write_output(context, params.path.path, model.text);
 }
 
 }  // namespace atrium::building

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "graph/api/write_output.hpp"
 #include "modules/building/ifc_context.hpp"
 #include "modules/building/step_reader.hpp"
 #include "modules/building/upright_building.hpp"
@@ -47,15 +48,11 @@ void WriteIfc::run(const In& in, const Params& params, Context& context) {
     check_furniture(*in.furniture);
     furniture = transformed(*in.furniture, upright.turn);
   }
-  const auto target = context.output(params.path.path);
-  const std::string text =
-      ifc_text(upright.building, elements, in.furniture ? &furniture : nullptr,
-               {target.filename().string(), params.project, crs, params.id_space, params.boundaries});
+  const std::string text = ifc_text(upright.building, elements, in.furniture ? &furniture : nullptr,
+                                    {std::filesystem::path(params.path.path).filename().string(), params.project, crs,
+                                     params.id_space, params.boundaries});
   check_ifc(read_step(text));
-  AtomicFile file(target);
-  file.write(text);
-  file.commit();
-  context.wrote(target);
+  write_output(context, params.path.path, text);
 }
 
 }  // namespace atrium::building

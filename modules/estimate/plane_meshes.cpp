@@ -8,6 +8,7 @@
 
 #include "modules/geometry/plane_frame.hpp"
 #include "modules/geometry/polygon.hpp"
+#include "modules/geometry/quantile.hpp"
 
 namespace atrium::estimate {
 namespace {
@@ -29,19 +30,6 @@ bool snap_to_axis(Plane& plane, const Eigen::Vector3d& mean, double tolerance) {
   return true;
 }
 
-/// Least and greatest value, but for a share of the values at each end.
-std::pair<double, double> range_of(std::vector<double>& values, double trim) {
-  const auto skip = static_cast<std::ptrdiff_t>(trim * static_cast<double>(values.size()));
-  if (skip == 0) {
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    return {*low, *high};
-  }
-  std::nth_element(values.begin(), values.begin() + skip, values.end());
-  const double low = values[static_cast<std::size_t>(skip)];
-  std::nth_element(values.begin(), values.end() - 1 - skip, values.end());
-  return {low, *(values.end() - 1 - skip)};
-}
-
 Rectangle2 bounding_rectangle(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& axis, double trim) {
   Rectangle2 result;
   result.axis = axis;
@@ -49,7 +37,7 @@ Rectangle2 bounding_rectangle(const std::vector<Eigen::Vector2d>& points, const 
   const std::array<Eigen::Vector2d, 2> directions{axis, result.perpendicular()};
   for (int k = 0; k < 2; ++k) {
     for (std::size_t i = 0; i < points.size(); ++i) values[i] = directions[static_cast<std::size_t>(k)].dot(points[i]);
-    std::tie(result.low[k], result.high[k]) = range_of(values, trim);
+    std::tie(result.low[k], result.high[k]) = trimmed_range(values, trim);
   }
   return result;
 }

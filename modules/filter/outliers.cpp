@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "graph/api/text.hpp"
 #include "modules/filter/kept.hpp"
 #include "modules/filter/spacing.hpp"
 
@@ -50,7 +51,8 @@ Outliers::Out Outliers::run(const In& in, const Params& params, Context& context
   const auto k = static_cast<std::size_t>(params.neighbours);
   if (cloud.size() <= k) {
     if (cloud.size() > 0)
-      context.warn(fmt::format("{} points are too few to find outliers by their {} neighbours", cloud.size(), k));
+      context.warn(fmt::format("{} too few to find outliers by {} neighbours",
+                               counted(cloud.size(), "point is", "points are"), k));
     return {cloud, 0};
   }
   const Spacing spacing(cloud.points, k, context);

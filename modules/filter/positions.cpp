@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "graph/api/text.hpp"
 #include "modules/geometry/grid_walk.hpp"
 
 namespace atrium::filter {
@@ -122,8 +123,8 @@ SharedOutput<Cloud> with_positions(const Input<Cloud>& cloud, std::vector<Eigen:
 SharedOutput<Cloud> checked_positions(const Input<Cloud>& cloud, double min_free, const Context& context) {
   const double share = free_share(*cloud, Ways(*cloud, context), context);
   if (share >= min_free) {
-    context.info(
-        fmt::format("{} positions, {:.0f} % of the ways to their points are free", cloud->sensors.size(), 100 * share));
+    context.info(fmt::format("{}, {:.0f} % of the ways to their points are free",
+                             counted(cloud->sensors.size(), "position"), 100 * share));
     return cloud;
   }
   context.warn(

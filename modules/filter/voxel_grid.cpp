@@ -7,6 +7,7 @@
 #include <numeric>
 #include <span>
 
+#include "graph/api/text.hpp"
 #include "modules/geometry/point_grid.hpp"
 
 namespace atrium::filter {
@@ -89,8 +90,8 @@ void check_wild(const PointGrid& grid, double size, Context& context) {
         fmt::format("{} of {} points lie more than {:.6g} m from the cloud's middle: too far for voxels of {:.6g} m",
                     wild, grid.order().size(), reach, size),
         "check the unit of the scan, crop it (filter.crop), or take larger voxels");
-  context.warn(
-      fmt::format("{} points lie more than {:.6g} m from the cloud's middle; they are kept as they are", wild, reach));
+  context.warn(fmt::format("{} more than {:.6g} m from the cloud's middle: kept as read",
+                           counted(wild, "point lies", "points lie"), reach));
 }
 
 }  // namespace

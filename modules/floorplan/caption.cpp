@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "graph/api/text.hpp"
 #include "modules/floorplan/fitted_text.hpp"
 
 namespace atrium::floorplan {
@@ -29,8 +30,7 @@ Caption caption_of(const PlanStorey& storey, double origin_z, Units units) {
   caption.level += storey.height > 0 ? " \u00B7 height " + length_text(storey.height, units) : " \u00B7 height unknown";
   double area = 0;
   for (const auto& room : storey.rooms) area += room.polygon.area();
-  caption.content = fmt::format("{} {} \u00B7 {}", storey.rooms.size(), storey.rooms.size() == 1 ? "room" : "rooms",
-                                area_text(area, units));
+  caption.content = fmt::format("{} \u00B7 {}", counted(storey.rooms.size(), "room"), area_text(area, units));
   return caption;
 }
 

@@ -28,24 +28,24 @@ std::string note_of(const FloorPlan& plan, double turn) {
 
 }  // namespace
 
-DrawnPlan drawn_plan(const FloorPlan& plan, const PlanDrawing& drawing) {
-  DrawnPlan drawn{{}, drawing.axes == Axes::walls ? wall_turn(plan) : 0};
-  for (const auto& storey : plan.storeys)
-    if (drawing.storey < 0 || storey.index == drawing.storey) drawn.storeys.push_back(turned(storey, drawn.turn));
-  if (drawing.storey >= 0 && drawn.storeys.empty())
-    throw Error(fmt::format("the plan has no storey {}", drawing.storey),
+DrawnPlan drawn_plan(const FloorPlan& plan, std::int32_t storey, Axes axes) {
+  DrawnPlan drawn{{}, axes == Axes::walls ? wall_turn(plan) : 0};
+  for (const auto& s : plan.storeys)
+    if (storey < 0 || s.index == storey) drawn.storeys.push_back(turned(s, drawn.turn));
+  if (storey >= 0 && drawn.storeys.empty())
+    throw Error(fmt::format("the plan has no storey {}", storey),
                 fmt::format("it has {}, counted from 0; -1 draws all", plan.storeys.size()));
   return drawn;
 }
 
-std::string svg_sheet(const FloorPlan& plan, const DrawnPlan& drawn, const Sheet& sheet, const PlanDrawing& drawing,
-                      const std::string& remark) {
+std::string svg_sheet(const FloorPlan& plan, const DrawnPlan& drawn, const Sheet& sheet, const std::string& title,
+                      bool dimensions, const std::string& remark) {
   const auto& storeys = drawn.storeys;
-  TitleBlock block{drawing.title, note_of(plan, drawn.turn) + remark, 0, storeys.size(), 0, false, -drawn.turn};
-  SvgCanvas canvas(sheet.size.x(), sheet.size.y(), drawing.title);
+  TitleBlock block{title, note_of(plan, drawn.turn) + remark, 0, storeys.size(), 0, false, -drawn.turn};
+  SvgCanvas canvas(sheet.size.x(), sheet.size.y(), title);
   canvas.raw(hatch);
   for (std::size_t i = 0; i < storeys.size(); ++i) {
-    draw_storey(canvas, sheet, i, storeys[i], drawing.dimensions);
+    draw_storey(canvas, sheet, i, storeys[i], dimensions);
     block.rooms += storeys[i].rooms.size();
     block.corrected = block.corrected || has_corrections(storeys[i]);
     for (const auto& room : storeys[i].rooms) block.area += room.polygon.area();

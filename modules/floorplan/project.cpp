@@ -6,10 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "graph/api/text.hpp"
 #include "modules/floorplan/caption.hpp"
-#include "modules/floorplan/median.hpp"
 #include "modules/floorplan/rooms.hpp"
 #include "modules/floorplan/walls.hpp"
+#include "modules/geometry/quantile.hpp"
 #include "modules/types/turn_between.hpp"
 
 namespace atrium::floorplan {
@@ -75,10 +76,10 @@ std::vector<Surface> of_class(const std::vector<Surface>& surfaces, SurfaceClass
 }
 
 double level_of(const std::vector<Surface>& surfaces) {
-  std::vector<Weighted> levels;
+  std::vector<std::pair<double, double>> levels;  // and areas
   levels.reserve(surfaces.size());
-  for (const auto& s : surfaces) levels.push_back({s.centre.z(), s.area});
-  return median(std::move(levels));
+  for (const auto& s : surfaces) levels.emplace_back(s.centre.z(), s.area);
+  return levels.empty() ? 0 : weighted_quantile(std::move(levels), 0.5);
 }
 
 double lowest_of(const std::vector<Surface>& surfaces) {
@@ -137,9 +138,8 @@ void set_room_heights(PlanStorey& storey, const std::vector<Surface>& ceilings, 
   }
   if (below > 0 && storey.height > 0)
     context.warn(
-        fmt::format("{} of the {} rooms of storey {} have a ceiling that is not above the storey's floor: their "
-                    "heights are left unknown",
-                    below, storey.rooms.size(), storey.index));
+        fmt::format("storey {}: the ceilings of {} of {} are not above its floor: their heights are left unknown",
+                    storey.index, below, counted(storey.rooms.size(), "room")));
 }
 
 PlanStorey storey_of(const std::vector<Surface>& surfaces, double origin_z, const Project::Params& params,
@@ -179,7 +179,7 @@ Project::Out Project::run(const In& in, const Params& params, Context& context) 
   plan.to_plan.translation = plan.origin - plan.to_plan.rotation * plan.origin;
   std::size_t dropped = 0;
   const auto surfaces = surfaces_of(mesh, plan.to_plan.rotation, plan.origin, dropped);
-  if (dropped > 0) context.warn(fmt::format("{} triangles without area are left out", dropped));
+  if (dropped > 0) context.warn(fmt::format("{} without area left out", counted(dropped, "triangle")));
   if (surfaces.empty()) context.warn("the mesh has no walls, floors or ceilings: the plan is empty");
   std::size_t number = 0;
   for (std::size_t begin = 0, end = 0; begin < surfaces.size(); begin = end) {

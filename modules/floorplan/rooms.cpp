@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "modules/floorplan/median.hpp"
+#include "modules/geometry/quantile.hpp"
 
 namespace atrium::floorplan {
 namespace {
@@ -54,7 +54,7 @@ std::vector<PlanRoom> rooms_of(const Region& ground, const PlanStorey& storey, c
 }
 
 std::optional<double> height_of(const PlanRoom& room, const std::vector<Surface>& ceilings, double elevation) {
-  std::vector<Weighted> heights;
+  std::vector<std::pair<double, double>> heights;  // and areas
   for (const auto& surface : ceilings)
     for (const auto& triangle : surface.triangles) {
       const PlanRing ring{triangle[0].head<2>(), triangle[1].head<2>(), triangle[2].head<2>()};
@@ -62,11 +62,11 @@ std::optional<double> height_of(const PlanRoom& room, const std::vector<Surface>
         Eigen::Vector2d middle = Eigen::Vector2d::Zero();
         for (const auto& corner : part.outline) middle += corner / static_cast<double>(part.outline.size());
         const double drop = surface.normal.head<2>().dot(middle - surface.centre.head<2>()) / surface.normal.z();
-        heights.push_back({surface.centre.z() - drop - elevation, part.area()});
+        heights.emplace_back(surface.centre.z() - drop - elevation, part.area());
       }
     }
   if (heights.empty()) return {};
-  return median(std::move(heights));
+  return weighted_quantile(std::move(heights), 0.5);
 }
 
 }  // namespace atrium::floorplan

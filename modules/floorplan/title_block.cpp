@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "graph/api/text.hpp"
 #include "modules/floorplan/drawn_storey.hpp"
 #include "modules/floorplan/fitted_text.hpp"
 
@@ -66,9 +67,8 @@ void draw_title(SvgCanvas& canvas, const Sheet& sheet, const TitleBlock& block) 
   };
   const double width = right - 90 - (left + 5) - 3;
   fit({left + 5, top + 8.5}, fitted(block.title, width, 5, 3, true), "font-weight=\"bold\"");
-  const std::string holds =
-      fmt::format("{} {} \u00B7 {} {} \u00B7 {}", block.storeys, block.storeys == 1 ? "storey" : "storeys", block.rooms,
-                  block.rooms == 1 ? "room" : "rooms", area_text(block.area, sheet.units));
+  const std::string holds = fmt::format("{} \u00B7 {} \u00B7 {}", counted(block.storeys, "storey"),
+                                        counted(block.rooms, "room"), area_text(block.area, sheet.units));
   fit({left + 5, top + 14.5}, fitted(holds, width, 2.8, 1.7), {});
   double legend = 0;  // what it takes of the line
   if (block.corrected) {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
+#include "graph/api/write_output.hpp"
 #include "modules/floorplan/dimensions.hpp"
 #include "modules/floorplan/door_leaf.hpp"
 #include "modules/floorplan/drawn_openings.hpp"
@@ -187,11 +188,7 @@ void WriteDxf::run(const In& in, const Params& params, Context& context) {
   if (const Bounds2 drawn = drawing.extents(); !crs.empty() && !drawn.empty())
     drawing.text(note_layer, {0.5 * (drawn.low.x() + drawn.high.x()), drawn.low.y() - 6 * mm}, 2.5 * mm,
                  coordinates_text(params.units, crs));
-  const auto path = context.output(params.path.path);
-  AtomicFile file(path);
-  file.write(std::move(drawing).finish());
-  file.commit();
-  context.wrote(path);
+  write_output(context, params.path.path, std::move(drawing).finish());
 }
 
 }  // namespace atrium::floorplan

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "graph/api/write_output.hpp"
 #include "modules/floorplan/caption.hpp"
 #include "modules/types/crs_name.hpp"
 
@@ -123,11 +124,7 @@ void WriteGeojson::run(const In& in, const Params& params, Context& context) {
   if (code > 0)
     root["crs"] = {{"type", "name"}, {"properties", {{"name", "urn:ogc:def:crs:EPSG::" + std::to_string(code)}}}};
   root["features"] = features.take();
-  const auto path = context.output(params.path.path);
-  AtomicFile file(path);
-  file.write(root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-  file.commit();
-  context.wrote(path);
+  write_output(context, params.path.path, root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace atrium::floorplan

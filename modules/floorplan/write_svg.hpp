@@ -1,5 +1,4 @@
 #pragma once
-#include "graph/api/node.hpp"
 #include "modules/floorplan/plan_drawing.hpp"
 
 namespace atrium::floorplan {
@@ -33,34 +32,9 @@ struct WriteSvg {
   struct In {
     Input<FloorPlan> plan;
   };
-  struct Params {
-    OutputPath path{"floorplan.svg"};
-    std::string title = "Floor plan";
-    std::int32_t storey = -1;
-    Paper paper = Paper::automatic;
-    std::int32_t scale = 0;
-    Axes axes = Axes::walls;
-    bool dimensions = true;
-    Units units = Units::metres;
-  };
+  using Params = PlanParams<PlanFile::svg>;
   static constexpr auto inputs = std::tuple{port<&In::plan>("What to draw.")};
-  static constexpr auto params = std::tuple{
-      param<&Params::path>("The file, in the run's folder."),
-      param<&Params::title>("What stands in the title block."),
-      param<&Params::storey>(count, within(-1, 10000), "The storey to draw, 0 the lowest; -1: all of them."),
-      param<&Params::paper>({{"auto", Paper::automatic},
-                             {"A4", Paper::a4},
-                             {"A3", Paper::a3},
-                             {"A2", Paper::a2},
-                             {"A1", Paper::a1},
-                             {"A0", Paper::a0}},
-                            "The sheet, upright or lying; auto: A4 or A3, larger if it must be."),
-      param<&Params::scale>(unitless, within(0, 100000), "50 means 1:50; 0: the greatest that fits."),
-      param<&Params::axes>({{"walls", Axes::walls}, {"input", Axes::input}},
-                           "What is parallel to the sheet: the walls, or the input's x and y."),
-      param<&Params::dimensions>("Draw the chains of dimensions."),
-      param<&Params::units>(unit_choices, "What lengths are written in; areas are in m², of ft-in in sq ft."),
-  };
+  static constexpr auto params = Params::table();
   static void run(const In& in, const Params& params, Context& context);
 };
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "graph/api/error.hpp"
+#include "modules/geometry/quantile.hpp"
 #include "modules/geometry/radix_sort.hpp"
 
 namespace atrium {
@@ -40,13 +41,11 @@ Box bounds(const std::vector<Eigen::Vector3f>& points, const Context& context) {
   return all;
 }
 
-double median(const std::vector<Eigen::Vector3f>& points, Eigen::Index axis) {
+double median_along(const std::vector<Eigen::Vector3f>& points, Eigen::Index axis) {
   std::vector<float> values;
   values.reserve(points.size());
   for (const auto& p : points) values.push_back(p[axis]);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median(std::move(values));
 }
 
 /// Tables that give each coordinate's bits their places in a Morton key that leaves out the bits no coordinate has.
@@ -87,7 +86,7 @@ void PointGrid::span(const std::vector<Eigen::Vector3f>& points, const Context& 
     double low = std::floor(static_cast<double>(box.low[axis]) * inverse_);
     double high = std::floor(static_cast<double>(box.high[axis]) * inverse_);
     if (high - low >= static_cast<double>(max_extent)) {
-      const double middle = std::floor(median(points, axis) * inverse_);
+      const double middle = std::floor(median_along(points, axis) * inverse_);
       low = std::max(low, middle - 0.5 * static_cast<double>(max_extent));
       high = std::min(high, low + static_cast<double>(max_extent - 1));
     }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "graph/api/error.hpp"
+#include "modules/geometry/quantile.hpp"
 #include "modules/io/decode_columns.hpp"
 #include "modules/io/decode_source.hpp"
 
@@ -132,9 +133,8 @@ Eigen::Vector3d choose_origin(const RawGeometry& geometry, double scale) {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   if (sample[0].empty()) return origin;
   for (int a = 0; a < 3; ++a) {
-    const auto middle = sample[a].begin() + static_cast<std::ptrdiff_t>(sample[a].size() / 2);
-    std::nth_element(sample[a].begin(), middle, sample[a].end());
-    if (std::abs(*middle) > largest_local_coordinate) origin[a] = std::floor(*middle);
+    const double middle = median(std::move(sample[a]));
+    if (std::abs(middle) > largest_local_coordinate) origin[a] = std::floor(middle);
   }
   return origin;
 }

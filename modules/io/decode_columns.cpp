@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "graph/api/error.hpp"
+#include "graph/api/text.hpp"
 
 namespace atrium::io {
 namespace {
@@ -175,8 +176,8 @@ void decode_normals(const RawGeometry& geometry, const std::vector<std::uint32_t
   for (const auto i : ignored) broken -= normals[i].isZero(0) ? 1 : 0;
   if (broken == 0) return;
   normals = {};
-  context.warn(fmt::format("{}: the normals of {} points are zero or not finite: the file's normals are left out",
-                           geometry.path, broken));
+  context.warn(fmt::format("{}: the normals of {} are zero or not finite: the file's normals are left out",
+                           geometry.path, counted(broken, "point")));
 }
 
 void decode_colours(const RawGeometry& geometry, std::vector<Colour>& colours, const Context& context) {
@@ -216,7 +217,8 @@ void decode_intensities(const RawGeometry& geometry, std::vector<float>& intensi
     });
   });
   if (const auto all = std::accumulate(lacking.begin(), lacking.end(), std::size_t{0}); all > 0)
-    context.warn(fmt::format("{}: {} intensities are empty or not finite: they are taken for 0", geometry.path, all));
+    context.warn(fmt::format("{}: {} empty or not finite: taken for 0", geometry.path,
+                             counted(all, "intensity is", "intensities are")));
 }
 
 void decode_source(const RawGeometry& geometry, std::vector<std::uint16_t>& source, const Context& context) {
@@ -250,7 +252,8 @@ void decode_labels(const RawGeometry& geometry, std::vector<std::int32_t>& label
     });
   });
   if (const auto all = std::accumulate(odd.begin(), odd.end(), std::size_t{0}); all > 0)
-    context.warn(fmt::format("{}: {} labels are no whole numbers of 32 bits: they are rounded", geometry.path, all));
+    context.warn(fmt::format("{}: {} of 32 bits: rounded", geometry.path,
+                             counted(all, "label is no whole number", "labels are no whole numbers")));
 }
 
 }  // namespace atrium::io

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "graph/api/error.hpp"
+#include "graph/api/text.hpp"
 #include "modules/io/decode.hpp"
 
 namespace atrium::io {
@@ -205,8 +206,8 @@ void finish_blocks(const RawGeometry& geometry, const RecordCounts& counts, doub
                              counts.not_finite, read - counts.misses));
   if (counts.bad_normals > 0) {
     cloud.normals = {};
-    context.warn(fmt::format("{}: the normals of {} points are zero or not finite: the file's normals are left out",
-                             geometry.path, counts.bad_normals));
+    context.warn(fmt::format("{}: the normals of {} are zero or not finite: the file's normals are left out",
+                             geometry.path, counted(counts.bad_normals, "point")));
   }
   for (const auto& sensor : geometry.sensors) cloud.sensors.emplace_back((sensor * scale - cloud.origin).cast<float>());
   if (cloud.sensors.size() < 2) cloud.source = {};

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "graph/api/error.hpp"
+#include "graph/api/text.hpp"
 #include "modules/io/e57_source.hpp"
 
 namespace atrium::io {
@@ -34,7 +35,7 @@ RawGeometry read_e57(const std::shared_ptr<const MappedFile>& file, const Contex
   E57Contents contents = read_e57_xml(path, E57Pages(file).xml());
   if (contents.all_scans == 0)
     throw Error(fmt::format("{}: the file has no scans{}", path,
-                            contents.images > 0 ? fmt::format(", only {} images", contents.images) : ""),
+                            contents.images > 0 ? ", only " + counted(contents.images, "image") : ""),
                 "export the points as well");
   if (contents.scans.empty())
     throw Error(fmt::format("{}: no points: the file's {} empty", path,
@@ -43,7 +44,7 @@ RawGeometry read_e57(const std::shared_ptr<const MappedFile>& file, const Contex
   if (contents.scans.size() > most_scans)
     throw Error(
         fmt::format("{}: {} scans; the most that can be handled are {}", path, contents.scans.size(), most_scans));
-  if (contents.images > 0) context.info(fmt::format("{}: {} images are passed over", path, contents.images));
+  if (contents.images > 0) context.info(fmt::format("{}: {} passed over", path, counted(contents.images, "image")));
   RawGeometry geometry;
   geometry.path = path;
   geometry.metres_per_unit = 1.0;
@@ -54,7 +55,8 @@ RawGeometry read_e57(const std::shared_ptr<const MappedFile>& file, const Contex
   if (!source->uneven().empty())
     context.warn(
         fmt::format("{}: only some of the {} scans have {}: left out", path, source->scans().size(), source->uneven()));
-  context.info(fmt::format("{}: {} scans with {} records", path, source->scans().size(), source->records()));
+  context.info(fmt::format("{}: {} with {}", path, counted(source->scans().size(), "scan"),
+                           counted(source->records(), "record")));
   geometry.source = source;
   return geometry;
 }

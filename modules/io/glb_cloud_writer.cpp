@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "graph/api/error.hpp"
+#include "modules/geometry/quantile.hpp"
 #include "modules/io/byte_buffer.hpp"
 #include "modules/io/glb_groups.hpp"
 
@@ -105,13 +106,8 @@ class GlbPoints {
     for (const auto i : points_)
       if (std::isfinite(cloud_.intensities[i])) values.push_back(cloud_.intensities[i]);
     if (values.empty()) return;
-    const auto at = [&](double share) {
-      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-      std::nth_element(values.begin(), middle, values.end());
-      return *middle;
-    };
-    dark_ = at(0.02);
-    light_ = std::max(at(0.98), std::nextafter(dark_, std::numeric_limits<float>::max()));
+    dark_ = quantile(values, 0.02);
+    light_ = std::max(quantile(std::move(values), 0.98), std::nextafter(dark_, std::numeric_limits<float>::max()));
   }
   Colour colour(std::size_t i) const {
     if (!cloud_.colours.empty()) return cloud_.colours[i];

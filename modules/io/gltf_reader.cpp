@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "graph/api/error.hpp"
+#include "graph/api/text.hpp"
 #include "modules/io/faces.hpp"
 #include "modules/io/gltf_accessors.hpp"
 #include "modules/io/gltf_colours.hpp"
@@ -60,11 +61,15 @@ class GltfReader {
       context_.check_cancelled();
       add(placement);
     }
-    if (lines_ > 0) context_.warn(fmt::format("{}: {} primitives are lines: these are not read", path(), lines_));
-    if (empty_ > 0) context_.warn(fmt::format("{}: {} primitives have no POSITION: they are not read", path(), empty_));
+    if (lines_ > 0)
+      context_.warn(
+          fmt::format("{}: {}: not read", path(), counted(lines_, "primitive is of lines", "primitives are of lines")));
+    if (empty_ > 0)
+      context_.warn(
+          fmt::format("{}: {} no POSITION: not read", path(), counted(empty_, "primitive has", "primitives have")));
     if (morphed_ > 0)
-      context_.warn(fmt::format("{}: {} primitives have morph targets: they are read as they are without them", path(),
-                                morphed_));
+      context_.warn(
+          fmt::format("{}: {} with morph targets: read without them", path(), counted(morphed_, "primitive")));
     finish_faces();
     finish_vertices();
     return std::move(geometry_);

@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/api/text.hpp"
+
 namespace atrium::io {
 namespace {
 
 /// `count` numbers at a key.
 std::vector<double> gltf_list(const JsonField& field, const char* key, std::size_t count) {
   const JsonField list = field[key];
-  if (list.size() != count) list.fail(fmt::format("has {} numbers, not {}", list.size(), count));
+  if (list.size() != count) list.fail(fmt::format("has {}, not {}", counted(list.size(), "number"), count));
   std::vector<double> numbers;
   for (const auto& item : list.items()) numbers.push_back(item.number());
   return numbers;
@@ -65,10 +67,11 @@ class SceneWalk {
     if (placed_.empty() && nodes_ == 0 && root_.has("meshes"))
       for (const auto& mesh : root_["meshes"].items()) placed_.push_back({mesh, mesh, Eigen::Affine3d::Identity()});
     if (skins_ > 0)
-      context_.warn(fmt::format("{}: {} meshes with skins are read as they are without them", file_.path(), skins_));
-    if (instanced_ > 0)
       context_.warn(
-          fmt::format("{}: {} nodes have EXT_mesh_gpu_instancing: each mesh is read once", file_.path(), instanced_));
+          fmt::format("{}: {} with skins: read without them", file_.path(), counted(skins_, "mesh", "meshes")));
+    if (instanced_ > 0)
+      context_.warn(fmt::format("{}: {} EXT_mesh_gpu_instancing: each mesh is read once", file_.path(),
+                                counted(instanced_, "node has", "nodes have")));
     return std::move(placed_);
   }
 

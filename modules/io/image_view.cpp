@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "modules/geometry/quantile.hpp"
 #include "modules/io/decode_columns.hpp"
 
 namespace atrium::io {
@@ -40,11 +41,9 @@ bool is_image_from(const RawGeometry& geometry, const Eigen::Vector3d& eye) {
     sum += here;
   }
   if (steps.size() < least) return true;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  const double median = *middle;
+  const double usual = median(steps);
   const auto alike = std::count_if(steps.begin(), steps.end(),
-                                   [&](double step) { return step >= median / same && step <= median * same; });
+                                   [&](double step) { return step >= usual / same && step <= usual * same; });
   const auto wide = std::count_if(directions.begin(), directions.end(),
                                   [&](const Eigen::Vector3d& d) { return angle_of(d, sum) > half_width; });
   constexpr double some = 0.1;

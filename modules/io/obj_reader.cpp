@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "graph/api/error.hpp"
+#include "graph/api/text.hpp"
 #include "modules/io/faces.hpp"
 #include "modules/io/lines.hpp"
 #include "modules/io/obj_groups.hpp"
@@ -285,8 +286,8 @@ RawGeometry read_obj(const std::shared_ptr<const MappedFile>& file, const Contex
     grouped = grouped || piece.named;
   }
   if (unread > 0)
-    context.warn(
-        fmt::format("{}: {} surfaces that are curved or patches are not read, only faces", geometry.path, unread));
+    context.warn(fmt::format("{}: {} not read, only faces", geometry.path,
+                             counted(unread, "curved surface or patch is", "curved surfaces or patches are")));
   FaceJoiner joiner(geometry, normals);
   for (const auto& piece : pieces) joiner.add(piece);
   joiner.finish(grouped);

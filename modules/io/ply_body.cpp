@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "graph/api/error.hpp"
+#include "graph/api/text.hpp"
 #include "modules/io/free_numbers.hpp"
 
 namespace atrium::io {
@@ -39,7 +40,7 @@ void warn_of_unread(const std::string& path, const PlyElement& element, const Co
   const bool is_face = element.name == "face" || element.name == "tristrips";
   // range_grid: the vertices are the image's points, and no surface is said to be between them.
   if (element.count == 0 || has_corners == is_face || element.name == "vertex" || element.name == "range_grid") return;
-  context.warn(fmt::format("{}: the {} records of element '{}' are not read: {}", path, element.count, element.name,
+  context.warn(fmt::format("{}: {} of element '{}' not read: {}", path, counted(element.count, "record"), element.name,
                            is_face ? "they have no list 'vertex_indices' of corners"
                                    : "faces are read of the elements 'face' and 'tristrips'"));
 }

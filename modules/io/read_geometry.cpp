@@ -7,6 +7,7 @@
 
 #include "graph/api/error.hpp"
 #include "graph/api/mapped_file.hpp"
+#include "graph/api/text.hpp"
 #include "modules/io/e57_reader.hpp"
 #include "modules/io/gltf_file.hpp"
 #include "modules/io/gltf_reader.hpp"
@@ -148,7 +149,8 @@ RawGeometry read_geometry(const std::string& path, const Context& context) {
     throw Error(path + (file->is_pipe() ? ": nothing came through the pipe" : ": the file is empty"));
   RawGeometry geometry = read(file, context);
   if (geometry.skipped_faces > 0)
-    context.warn(fmt::format("{}: {} faces of fewer than three corners skipped", path, geometry.skipped_faces));
+    context.warn(
+        fmt::format("{}: {} of fewer than three corners skipped", path, counted(geometry.skipped_faces, "face")));
   return geometry;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "graph/api/text.hpp"
 #include "modules/geometry/poisson_disk.hpp"
 #include "modules/io/decode.hpp"
 #include "modules/io/duplicates.hpp"
@@ -191,7 +192,7 @@ ReadScan::Out ReadScan::run(const Params& params, Context& context) {
   if (!thin)
     warn_of_duplicates(path, cloud, context);
   else if (cloud.size() < 3)
-    context.warn(fmt::format("{}: all points lie in {} voxels of {} m", path, cloud.size(), params.voxel));
+    context.warn(fmt::format("{}: all points lie in {} of {} m", path, counted(cloud.size(), "voxel"), params.voxel));
   return {std::move(cloud)};
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "graph/api/text.hpp"
 #include "modules/geometry/moments.hpp"
 #include "modules/io/decode.hpp"
 #include "modules/io/paths.hpp"
@@ -128,14 +129,16 @@ class Converter {
 };
 
 void report(const std::string& path, const Counts& counts, const Context& context) {
-  const auto warn = [&](std::size_t number, std::string_view text) {
-    if (number > 0) context.warn(fmt::format("{}: {} {}", path, number, text));
+  const auto warn = [&](std::size_t number, std::string_view one, std::string_view many, std::string_view rest) {
+    if (number > 0) context.warn(fmt::format("{}: {}{}", path, counted(number, one, many), rest));
   };
-  warn(counts.other_types, "groups are no planes: skipped");
-  warn(counts.empty, "groups have no points of their own: skipped");
-  warn(counts.degenerate, "groups state no plane and have too few points for one: skipped");
-  warn(counts.refitted, "planes fitted to their points: the file's parameters are zero or not those of their points");
-  warn(counts.shared_points, "points are in more than one group: the first keeps them");
+  warn(counts.other_types, "group is no plane", "groups are no planes", ": skipped");
+  warn(counts.empty, "group has no points of its own", "groups have no points of their own", ": skipped");
+  warn(counts.degenerate, "group states no plane and has", "groups state no plane and have",
+       " too few points for one: skipped");
+  warn(counts.refitted, "plane", "planes",
+       " fitted to the points: the file's parameters are zero or not those of the points");
+  warn(counts.shared_points, "point is", "points are", " in more than one group: kept in the first");
 }
 
 }  // namespace

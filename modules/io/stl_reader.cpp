@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "graph/api/error.hpp"
+#include "graph/api/text.hpp"
 #include "modules/io/lines.hpp"
 
 namespace atrium::io {
@@ -63,8 +64,9 @@ std::uint64_t facets_of(const MappedFile& file, const Context& context) {
                             file.path(), declared, file.size()),
                 "the header promises more than the file holds: copy or export it again");
   if (declared < room)
-    context.warn(fmt::format("{}: {} facets are declared, and {} bytes more follow: these are not read", file.path(),
-                             declared, file.size() - binary_head - declared * binary_facet));
+    context.warn(fmt::format("{}: {} declared, and {} bytes more follow: these are not read", file.path(),
+                             counted(declared, "facet is", "facets are"),
+                             file.size() - binary_head - declared * binary_facet));
   return declared;
 }
 
@@ -160,7 +162,7 @@ class TextParser {
       if (in_loop_) fail("'outer loop' before the 'endloop' of the last one");
       in_loop_ = true;
     } else if (keyword == "endloop") {
-      if (!in_loop_ || corners_.size() != 3) fail(fmt::format("a facet of {} vertices", corners_.size()));
+      if (!in_loop_ || corners_.size() != 3) fail("a facet of " + counted(corners_.size(), "vertex", "vertices"));
       geometry_.triangles.push_back({corners_[0], corners_[1], corners_[2]});
       corners_.clear();
       in_loop_ = false;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "graph/api/error.hpp"
+#include "graph/api/text.hpp"
 #include "modules/io/column_names.hpp"
 
 namespace atrium::io {
@@ -172,8 +173,9 @@ std::vector<RowScan> counted_scans(const std::string& path, const Lines& lines, 
     if (tokens.size() != 1 && !scans.empty()) {  // more points than were promised
       RowScan& last = scans.back();
       at = next_single(lines, at);
-      context.warn(fmt::format("{}:{}: {} points are declared, but {} lines follow: all are read", path,
-                               lines.row(last.first - 1).line, last.rows, at - last.first));
+      context.warn(fmt::format("{}:{}: {} declared, but {}: all are read", path, lines.row(last.first - 1).line,
+                               counted(last.rows, "point is", "points are"),
+                               counted(at - last.first, "line follows", "lines follow")));
       last.rows = at - last.first;
       continue;
     }
@@ -186,8 +188,9 @@ std::vector<RowScan> counted_scans(const std::string& path, const Lines& lines, 
       throw Error(fmt::format("{}:{}: {} is no number of points", path, head.line, quote(tokens[0])),
                   "a PTS file begins with how many points follow");
     if (!good)
-      throw Error(fmt::format("{}:{}: {} points are declared, but {} lines follow", path, head.line,
-                              tokens.size() == 1 ? std::string(tokens[0]) : quote(head.text), left),
+      throw Error(fmt::format("{}:{}: {} points are declared, but {}", path, head.line,
+                              tokens.size() == 1 ? std::string(tokens[0]) : quote(head.text),
+                              counted(left, "line follows", "lines follow")),
                   "the file is cut short");
     const auto rows = static_cast<std::size_t>(points);
     if (rows > 0) scans.push_back({at + 1, rows, Eigen::Affine3d::Identity(), false, false, 0});
@@ -244,8 +247,8 @@ void check_width(const std::string& path, const Row& row, const Fields& fields, 
       fields.size() > roles.size() && std::all_of(fields.begin() + static_cast<std::ptrdiff_t>(roles.size()),
                                                   fields.end(), [](std::string_view f) { return f.empty(); });
   if (roles.size() != fields.size() && !behind)
-    throw Error(fmt::format("{}:{}: {} columns are named, but the line has {} values", path, row.line, roles.size(),
-                            fields.size()));
+    throw Error(fmt::format("{}:{}: {} columns are named, but the line has {}", path, row.line, roles.size(),
+                            counted(fields.size(), "value")));
 }
 
 }  // namespace
@@ -315,7 +318,8 @@ void read_numbers(const std::string& path, const Row& row, const TextDialect& di
   std::string_view rest = row.text, field;
   for (std::size_t c = 0; c < roles.size(); ++c) {
     if (!next_field(rest, dialect, field))
-      throw Error(fmt::format("{}:{}: {} values instead of {} (cut short?)", path, row.line, c, roles.size()));
+      throw Error(
+          fmt::format("{}:{}: {} instead of {} (cut short?)", path, row.line, counted(c, "value"), roles.size()));
     if (roles[c] != Role::none && !parse_field(field, dialect, to[c]))
       throw Error(fmt::format("{}:{}: {}", path, row.line, no_number(field)));
   }

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "graph/api/error.hpp"
+#include "graph/api/text.hpp"
 #include "modules/io/column_source.hpp"
 #include "modules/io/decode.hpp"
 #include "modules/io/decode_source.hpp"
@@ -177,8 +178,8 @@ class Thinning {
                       "{:.6g} m",
                       geometry_.path, wild_count_, counts_.points, away, voxel_),
           "check the unit of the scan, or take larger voxels");
-    context_.warn(fmt::format("{}: {} points lie more than {:.6g} m from the cloud's middle; they are kept as they are",
-                              geometry_.path, wild_count_, away));
+    context_.warn(fmt::format("{}: {} more than {:.6g} m from the cloud's middle: kept as read", geometry_.path,
+                              counted(wild_count_, "point lies", "points lie"), away));
   }
 
   Cloud joined() const {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "modules/geometry/quantile.hpp"
 #include "modules/geometry/upright_evidence.hpp"
 
 namespace atrium::io {
@@ -36,19 +37,14 @@ std::vector<float> along(const std::vector<Eigen::Vector3f>& points, int axis, s
   std::vector<float> values;
   const std::size_t step = std::max<std::size_t>(1, points.size() / most);
   for (std::size_t i = 0; i < points.size(); i += step) values.push_back(points[i][axis]);
-  std::sort(values.begin(), values.end());
   return values;
-}
-
-double quantile(const std::vector<float>& sorted, double share) {
-  return static_cast<double>(sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))]);
 }
 
 /// The distance between the two largest layers of points along an axis that are at least 1.8 apart, layers of 10 cm: of
 /// a room in metres the clear height. 0: there are no two of like size, or the extent is not one of rooms in metres.
 double clear_height(const std::vector<float>& heights) {
   constexpr double shortest = 1.9, longest = 80, layer = 0.1, apart = 1.8, alike = 0.4, least = 0.06;
-  const double low = quantile(heights, 0.002), high = quantile(heights, 0.998);
+  const auto low = static_cast<double>(quantile(heights, 0.002)), high = static_cast<double>(quantile(heights, 0.998));
   if (high - low < shortest || high - low > longest) return 0;
   const auto bins = static_cast<std::size_t>((high - low + 1) / (layer / 2)) + 3;
   std::vector<double> count(bins, 0);
@@ -128,15 +124,16 @@ std::string shows(const Rated& r) {
 UnitGuess guess_unit(const std::vector<Eigen::Vector3f>& points, bool y_up, const Context& context) {
   constexpr std::size_t few = 500, sampled = 60000, some = 50000;
   if (points.size() < few) return {};
-  std::array<std::vector<float>, 3> sorted;
+  std::array<std::vector<float>, 3> columns;
   double extent = 0;
   for (int k = 0; k < 3; ++k) {
-    sorted[static_cast<std::size_t>(k)] = along(points, k, some);
-    const auto& values = sorted[static_cast<std::size_t>(k)];
-    extent = std::max(extent, quantile(values, 0.995) - quantile(values, 0.005));
+    const auto& values = columns[static_cast<std::size_t>(k)] = along(points, k, some);
+    const double low = static_cast<double>(quantile(values, 0.005)),
+                 high = static_cast<double>(quantile(values, 0.995));
+    extent = std::max(extent, high - low);
   }
   constexpr double lowest = 2.05, highest = 3.6;
-  const double height = clear_height(sorted[y_up ? 1 : 2]);
+  const double height = clear_height(columns[y_up ? 1 : 2]);
   if (height >= lowest && height <= highest)
     return {1, fmt::format(": layers {:.2f} m apart along {}", height, y_up ? 'y' : 'z'), {}};
   const std::vector<SurfacePiece> pieces = pieces_with_normals(points, sampled, context);

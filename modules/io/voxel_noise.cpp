@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+
+#include "modules/io/key_table.hpp"
 
 namespace atrium::io {
 namespace {
@@ -14,18 +15,9 @@ Place coarse(const Place& place, unsigned bits) { return {place[0] >> bits, plac
 /// Numbers places in the order in which they come.
 class PlaceTable {
  public:
-  std::uint32_t add(const Place& place) {
-    const std::uint64_t key = key_of(place);
-    if (!keys_.empty() && keys_[last_] == key) return last_;  // in the order of voxels neighbours follow each other
-    return last_ = add_key(key);
-  }
-  std::optional<std::uint32_t> find(const Place& place) const {
-    const std::uint32_t entry = table_.empty() ? 0 : table_[slot(key_of(place))];
-    return entry == 0 ? std::nullopt : std::optional(entry - 1);
-  }
-  std::size_t size() const { return keys_.size(); }
+  std::uint32_t add(const Place& place) { return keys_.add(key_of(place)); }
   Place place(std::size_t number) const {
-    const std::uint64_t key = keys_[number];
+    const std::uint64_t key = keys_.key(number);
     return {static_cast<std::uint32_t>(key & mask), static_cast<std::uint32_t>(key >> axis_bits & mask),
             static_cast<std::uint32_t>(key >> 2 * axis_bits)};
   }
@@ -36,41 +28,18 @@ class PlaceTable {
     for (std::uint32_t z = first(2); z <= place[2] + 1; ++z)
       for (std::uint32_t y = first(1); y <= place[1] + 1; ++y)
         for (std::uint32_t x = first(0); x <= place[0] + 1; ++x)
-          if (const auto number = find({x, y, z})) work(*number);
+          if (const auto number = keys_.find(key_of({x, y, z}))) work(*number);
   }
 
  private:
-  std::uint32_t add_key(std::uint64_t key) {
-    if (2 * (keys_.size() + 1) > table_.size()) grow();
-    const std::size_t at = slot(key);
-    if (table_[at] == 0) {
-      keys_.push_back(key);
-      table_[at] = static_cast<std::uint32_t>(keys_.size());
-    }
-    return table_[at] - 1;
-  }
-
   static constexpr unsigned axis_bits = 21;
   static constexpr std::uint64_t mask = (std::uint64_t{1} << axis_bits) - 1;
 
   static std::uint64_t key_of(const Place& p) {
     return (p[0] & mask) | (p[1] & mask) << axis_bits | static_cast<std::uint64_t>(p[2] & mask) << 2 * axis_bits;
   }
-  /// Of a key, or where it would be.
-  std::size_t slot(std::uint64_t key) const {
-    const std::size_t last = table_.size() - 1;
-    std::size_t at = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ULL) >> 20U) & last;
-    while (table_[at] != 0 && keys_[table_[at] - 1] != key) at = (at + 1) & last;
-    return at;
-  }
-  void grow() {
-    table_.assign(std::max<std::size_t>(64, 2 * table_.size()), 0);
-    for (std::size_t i = 0; i < keys_.size(); ++i) table_[slot(keys_[i])] = static_cast<std::uint32_t>(i + 1);
-  }
 
-  std::vector<std::uint32_t> table_;  // number plus 1; open addressing, a power of two long
-  std::vector<std::uint64_t> keys_;
-  std::uint32_t last_ = 0;
+  KeyTable keys_;
 };
 
 /// Points by how many points their voxel holds, in quarters of an octave.

@@ -4,30 +4,8 @@
 
 namespace atrium::io {
 
-std::size_t VoxelSums::find(std::uint64_t key) {
-  if (2 * (keys_.size() + 1) > table_.size()) grow();
-  const std::size_t mask = table_.size() - 1;
-  std::size_t at = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ULL) >> 20U) & mask;
-  while (table_[at] != 0 && keys_[table_[at] - 1] != key) at = (at + 1) & mask;
-  if (table_[at] == 0) {
-    keys_.push_back(key);
-    table_[at] = static_cast<std::uint32_t>(keys_.size());
-  }
-  return table_[at] - 1;
-}
-
-void VoxelSums::grow() {
-  table_.assign(std::max<std::size_t>(64, 2 * table_.size()), 0);
-  const std::size_t mask = table_.size() - 1;
-  for (std::size_t v = 0; v < keys_.size(); ++v) {
-    std::size_t at = static_cast<std::size_t>((keys_[v] * 0x9e3779b97f4a7c15ULL) >> 20U) & mask;
-    while (table_[at] != 0) at = (at + 1) & mask;
-    table_[at] = static_cast<std::uint32_t>(v + 1);
-  }
-}
-
 void VoxelSums::add(std::uint64_t key, const Cloud& cloud, std::size_t i) {
-  const std::size_t v = find(key);
+  const std::size_t v = keys_.add(key);
   const bool is_new = v == places_.size();
   if (is_new) {
     places_.emplace_back();

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "modules/io/key_table.hpp"
 #include "modules/types/cloud.hpp"
 
 namespace atrium::io {
@@ -16,7 +17,7 @@ class VoxelSums {
   /// Adds point i of the cloud to the voxel of that key.
   void add(std::uint64_t key, const Cloud& cloud, std::size_t i);
   std::size_t size() const { return keys_.size(); }
-  std::uint64_t key(std::size_t voxel) const { return keys_[voxel]; }
+  std::uint64_t key(std::size_t voxel) const { return keys_.key(voxel); }
   std::uint64_t points(std::size_t voxel) const { return places_[voxel].count; }
   /// Puts a voxel's means at a place of the cloud, whose columns have room for it.
   void put(std::size_t voxel, Cloud& cloud, std::size_t place) const;
@@ -31,12 +32,9 @@ class VoxelSums {
     Eigen::Vector3f first = Eigen::Vector3f::Zero();
   };
 
-  std::size_t find(std::uint64_t key);
-  void grow();
   std::int32_t most_frequent(std::size_t voxel) const;
 
-  std::vector<std::uint32_t> table_;  // index of a voxel plus 1; open addressing, a power of two long
-  std::vector<std::uint64_t> keys_;
+  KeyTable keys_;  // whose numbers are the voxels' indices
   // By voxel; empty where the cloud has no such column.
   std::vector<Place> places_;
   std::vector<Normal> normals_;

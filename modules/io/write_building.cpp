@@ -1,5 +1,6 @@
 #include "modules/io/write_building.hpp"
 
+#include "graph/api/write_output.hpp"
 #include "modules/io/building_json.hpp"
 
 namespace atrium::io {
@@ -14,11 +15,7 @@ void WriteBuilding::run(const In& in, const Params& params, Context& context) {
   } else {
     text = building_to_json(*in.building, Eigen::Vector3d::UnitZ(), unit, accuracy);
   }
-  const auto target = context.output(params.path.path);
-  AtomicFile file(target);
-  file.write(text);
-  file.commit();
-  context.wrote(target);
+  write_output(context, params.path.path, text);
 }
 
 }  // namespace atrium::io

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "graph/api/text.hpp"
 #include "modules/io/cloud_columns.hpp"
 #include "modules/io/e57_writer.hpp"
 #include "modules/io/glb_cloud_writer.hpp"
@@ -103,8 +104,8 @@ void WriteCloud::run(const In& in, const Params& params, Context& context) {
   if (cloud.points.empty()) context.warn("the cloud is empty: " + params.path.path + " has no points");
   const bool several = extension == ".ply" || extension == ".e57";
   if ((!several && !glb && cloud.sensors.size() > 1) || ((text || las) && !cloud.sensors.empty()))
-    context.warn(fmt::format("{}: the places of the {} sensors are not kept by this format", params.path.path,
-                             cloud.sensors.size()));
+    context.warn(fmt::format("{}: the places of {} are not kept by this format", params.path.path,
+                             counted(cloud.sensors.size(), "sensor")));
   const bool names_crs = (las || extension == ".e57") && !cloud.crs.empty();
   const std::string crs = names_crs && std::abs(cloud.unit - 1) < 1e-9 ? cloud.crs : std::string();
   if (names_crs && crs.empty())

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/api/text.hpp"
 #include "modules/layout/ceilings_behind.hpp"
 #include "modules/layout/covered_floor.hpp"
 #include "modules/layout/doubled_walls.hpp"
@@ -239,8 +240,8 @@ Confidence::Out Confidence::run(const In& in, const Params& params, Context& con
     refuse(fmt::format("the rooms found have confidence {:.2f}: {}", building.confidence,
                        building.doubts.empty() ? listed(building.rooms[0].doubts, 3) : building.doubts[0]));
   warn(building, frame, params.doubtful, context);
-  context.info(fmt::format("{} rooms of {}, {:.1f} m2, confidence {:.2f}", building.rooms.size(), kept.size(),
-                           area_of(building), building.confidence));
+  context.info(fmt::format("{} of {}, {:.1f} m2, confidence {:.2f}", building.rooms.size(),
+                           counted(kept.size(), "room"), area_of(building), building.confidence));
   return {with_origin(std::move(building), in.building->origin)};
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "graph/api/error.hpp"
+#include "modules/geometry/quantile.hpp"
 #include "modules/layout/doorways.hpp"
 #include "modules/layout/enclosure.hpp"
 
@@ -212,11 +213,9 @@ bool is_tall(const Footprint& wall, const Eigen::Vector2d& p, double floor, doub
 }
 
 /// Where most columns of a wall end: the highest point of each stands below the wall's end by up to the spacing.
-double upper_end(std::vector<double>& tops) {
+double upper_end(std::vector<double> tops) {
   constexpr double most = 0.8;
-  const auto rank = tops.begin() + static_cast<std::ptrdiff_t>(most * static_cast<double>(tops.size() - 1));
-  std::nth_element(tops.begin(), rank, tops.end());
-  return *rank;
+  return quantile(std::move(tops), most);
 }
 
 /// Where a wall ends over p, at most at the storey's own end; unknown_top: it has no points there.
@@ -280,8 +279,8 @@ void measure_edge(const Structure& structure, const std::vector<Footprint>& foot
     edge.wall_left += seen[0] / samples;
     edge.wall_right += seen[1] / samples;
   }
-  if (!tops[0].empty()) edge.top_left = upper_end(tops[0]);
-  if (!tops[1].empty()) edge.top_right = upper_end(tops[1]);
+  if (!tops[0].empty()) edge.top_left = upper_end(std::move(tops[0]));
+  if (!tops[1].empty()) edge.top_right = upper_end(std::move(tops[1]));
 }
 
 }  // namespace

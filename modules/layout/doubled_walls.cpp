@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "modules/geometry/quantile.hpp"
+
 namespace atrium::layout {
 namespace {
 
@@ -72,13 +74,6 @@ double turned(const Layer& a, const Layer& b) {
   return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// The other layers that may double a layer.
 std::vector<const Layer*> beside(const Layer& layer, const std::vector<Layer>& layers) {
   std::vector<const Layer*> result;
@@ -116,11 +111,9 @@ DoubledWalls doubled_walls(const PlanePrimitives& planes, const std::vector<Foot
         }
       }
   }
-  DoubledWalls result;
-  if (all > 0) result.share = static_cast<double>(apart.size()) / static_cast<double>(all);
-  result.apart = median(apart);
-  result.turned = median(turns);
-  return result;
+  if (apart.empty()) return {};
+  const double share = static_cast<double>(apart.size()) / static_cast<double>(all);
+  return {share, median(std::move(apart)), median(std::move(turns))};
 }
 
 }  // namespace atrium::layout

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "modules/geometry/quantile.hpp"
 #include "modules/layout/raster.hpp"
 #include "modules/layout/wall_pairs.hpp"
 
@@ -128,9 +129,7 @@ double EvidenceFinder::noise_of(const BuildingFace& face) const {
     if (distance <= reach && around.contains(p)) distances.push_back(distance);
   });
   if (distances.empty()) return face.residual;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return std::min(face.residual, per_median * *middle);
+  return std::min(face.residual, per_median * median(std::move(distances)));
 }
 
 namespace {

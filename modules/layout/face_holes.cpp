@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "modules/geometry/quantile.hpp"
 #include "modules/layout/raster.hpp"
 
 namespace atrium::layout {
@@ -20,12 +21,10 @@ struct Side {
 };
 
 /// Of the points outside of this side the last before the hole, but for outliers.
-std::optional<double> last_before(std::vector<double>& beside) {
+std::optional<double> last_before(const std::vector<double>& beside) {
   constexpr double most = 0.95;
   if (beside.size() < few) return std::nullopt;
-  const auto rank = beside.begin() + static_cast<std::ptrdiff_t>(most * static_cast<double>(beside.size() - 1));
-  std::nth_element(beside.begin(), rank, beside.end());
-  return *rank;
+  return quantile(beside, most);
 }
 
 /// The middle of the slice that holds at least half of the places: a jamb, seen edge on.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/geometry/quantile.hpp"
+
 namespace atrium::layout {
 namespace {
 
@@ -80,12 +82,7 @@ double FaceMask::cover(const std::vector<Eigen::Vector2d>& points, double farthe
     reaches.push_back(reach_of(sums, p.x(), p.y(), static_cast<int>(std::lround(farthest / pixel_))));
   for (const int reach : reaches)
     if (reach >= 0) sorted.push_back(reach);
-  int usual = 0;
-  if (!sorted.empty()) {
-    const auto rank = sorted.begin() + static_cast<std::ptrdiff_t>(most * static_cast<double>(sorted.size() - 1));
-    std::nth_element(sorted.begin(), rank, sorted.end());
-    usual = *rank;
-  }
+  const int usual = sorted.empty() ? 0 : quantile(std::move(sorted), most);
   for (std::size_t i = 0; i < occupied.size(); ++i) {
     const Eigen::Vector2i& p = occupied[i];
     const bool dense = reaches[i] >= 0 && reaches[i] <= usual;

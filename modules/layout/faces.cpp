@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "graph/api/error.hpp"
+#include "graph/api/text.hpp"
 #include "modules/layout/face_rings.hpp"
 #include "modules/layout/raster.hpp"
 #include "modules/layout/room_cells.hpp"
@@ -250,8 +251,9 @@ class Assembly {
 
 Faces::Out Faces::run(const In& in, Context& context) {
   Out out{Assembly(*in.cells, *in.structure, context).run()};
-  context.info(fmt::format("{} rooms, {} faces, {} corners", out.building.rooms.size(), out.building.faces.size(),
-                           out.building.vertices.size()));
+  context.info(fmt::format("{}, {}, {}", counted(out.building.rooms.size(), "room"),
+                           counted(out.building.faces.size(), "face"),
+                           counted(out.building.vertices.size(), "corner")));
   return out;
 }
 

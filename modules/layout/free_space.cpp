@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+
+#include "modules/geometry/quantile.hpp"
 
 namespace atrium::layout {
 namespace {
@@ -18,11 +21,7 @@ Eigen::AlignedBox3d inner_box(const Cloud& cloud) {
     std::vector<float> values;
     values.reserve(cloud.points.size());
     for (const auto& p : cloud.points) values.push_back(p[axis]);
-    const auto skip = static_cast<std::ptrdiff_t>(outliers * static_cast<double>(values.size()));
-    std::nth_element(values.begin(), values.begin() + skip, values.end());
-    box.min()[axis] = values[static_cast<std::size_t>(skip)];
-    std::nth_element(values.begin(), values.end() - 1 - skip, values.end());
-    box.max()[axis] = values[values.size() - 1 - static_cast<std::size_t>(skip)];
+    std::tie(box.min()[axis], box.max()[axis]) = trimmed_range(std::move(values), outliers);
   }
   constexpr double margin = 1.0;
   box.min().array() -= margin;
@@ -55,10 +54,7 @@ class Density {
     std::vector<std::uint32_t> all;
     all.reserve(cloud.points.size());
     for (const auto& p : cloud.points) all.push_back(around(p.cast<double>()));
-    if (all.empty()) return 0;
-    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-    std::nth_element(all.begin(), middle, all.end());
-    return *middle;
+    return all.empty() ? 0 : median(std::move(all));
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "graph/api/text.hpp"
 #include "modules/layout/blank_gaps.hpp"
 #include "modules/layout/opening_pairs.hpp"
 #include "modules/layout/wall_pairs.hpp"
@@ -68,8 +69,8 @@ void judge_low_doors(Building& building, double least_height, std::size_t left_o
     context.warn(
         fmt::format("holes in walls down to a floor are left closed, as they are too small for doors: {}", left_out));
   if (low > 0)
-    context.warn(fmt::format("{} doors are lower than {:.2f} m, the lowest {:.2f} m: their upper parts may be hidden",
-                             low, least_height, lowest));
+    context.warn(fmt::format("{} than {:.2f} m, the lowest {:.2f} m: upper parts may be hidden",
+                             counted(low, "door is lower", "doors are lower"), least_height, lowest));
 }
 
 /// Whether the opening would be a door if the building stood on its head: it hangs from the ceiling, is as high as a
@@ -95,9 +96,9 @@ void warn_of_hanging_doors(const Building& building, const Context& context) {
       all.begin(), all.end(), [&](const BuildingOpening& opening) { return is_hanging_door(building, opening); });
   if (!stands && hanging > 0)
     context.warn(
-        fmt::format("no door stands on a floor, but {} openings hang from the ceiling as doors would if the scan "
+        fmt::format("no door stands on a floor, but {} from the ceiling as doors would if the scan "
                     "stood on its head: if z points down, -s upright.up=[0,0,-1]",
-                    hanging));
+                    counted(static_cast<std::size_t>(hanging), "opening hangs", "openings hang")));
 }
 
 }  // namespace
@@ -142,15 +143,17 @@ Openings::Out Openings::run(const In& in, const Params& params, Context& context
   if (all.hidden_feet > 0)
     context.warn(fmt::format("windows may be doors, as the wall below them is hidden: {}", all.hidden_feet));
   judge_low_doors(building, params.min_door_height, all.low_blanks, context);
-  const auto count = [&](std::string_view kind) {
-    return std::count_if(building.openings.begin(), building.openings.end(),
-                         [&](const auto& opening) { return opening.kind == kind; });
+  const auto count = [&](std::string_view kind, std::string_view called) {
+    const auto of_kind = std::count_if(building.openings.begin(), building.openings.end(),
+                                       [&](const auto& opening) { return opening.kind == kind; });
+    return counted(static_cast<std::size_t>(of_kind), called);
   };
-  context.info(fmt::format("{} doors, {} passages, {} windows, {} slab openings; {} walls seen from both sides",
-                           count("door"), count("passage"), count("window"), count("slab"), building.walls.size()));
+  context.info(fmt::format("{}, {}, {}, {}; {} seen from both sides", count("door", "door"),
+                           count("passage", "passage"), count("window", "window"), count("slab", "slab opening"),
+                           counted(building.walls.size(), "wall")));
   warn_of_hanging_doors(building, context);
   if (doubtful > 0)
-    context.info(fmt::format("{} openings are left out: too little of the faces around them was seen", doubtful));
+    context.info(fmt::format("{} left out: too little of the faces around was seen", counted(doubtful, "opening")));
   Building relative;  // the openings alone, to the building's own origin
   relative.origin = building.origin;
   relative.openings = std::move(building.openings);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "graph/api/text.hpp"
 #include "modules/layout/ceilings_behind.hpp"
 #include "modules/layout/coverage.hpp"
 #include "modules/layout/plan_cells.hpp"
@@ -68,8 +69,8 @@ Partition::Out Partition::run(const In& in, const Params& params, Context& conte
     cells += storey.cells.size();
     lines += storey.lines.size();
   }
-  context.info(fmt::format("{} storeys, {} lines, {} cells; squares of {:.0f} mm", out.cells.storeys.size(), lines,
-                           cells, 1000 * out.cells.pixel));
+  context.info(fmt::format("{}, {}, {}; squares of {:.0f} mm", counted(out.cells.storeys.size(), "storey"),
+                           counted(lines, "line"), counted(cells, "cell"), 1000 * out.cells.pixel));
   return out;
 }
 

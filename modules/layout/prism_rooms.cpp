@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "graph/api/text.hpp"
 #include "modules/layout/coverage.hpp"
 #include "modules/layout/room_cells.hpp"
 
@@ -154,8 +155,8 @@ class PrismRoomFinder {
       return drop;
     });
     if (dropped > 0)
-      context.info(
-          fmt::format("{} spaces of {:.1f} m2 in all are too small or hardly seen to be rooms", dropped, left_out));
+      context.info(fmt::format("{} of {:.1f} m2 in all left out: too small or hardly seen to be rooms",
+                               counted(dropped, "space"), left_out));
     std::stable_sort(rooms_.begin(), rooms_.end(),
                      [](const PrismRoom& a, const PrismRoom& b) { return a.area > b.area; });
     return storeys();

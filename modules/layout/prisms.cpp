@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "graph/api/error.hpp"
+#include "graph/api/text.hpp"
 #include "modules/layout/ceilings_behind.hpp"
 #include "modules/layout/coverage.hpp"
 #include "modules/layout/plan_cells.hpp"
@@ -161,8 +162,9 @@ Prisms::Out Prisms::run(const In& in, const Params& params, Context& context) {
     context.info("no prism is inside: there is no room");
     out.cells.storeys.push_back(space.plan);
   }
-  context.info(fmt::format("{} surfaces, {} lines, {} cells, {} prisms; {} storeys", space.surfaces.size(),
-                           lines.size(), space.plan.cells.size(), prisms_of(space), out.cells.storeys.size()));
+  context.info(fmt::format("{}, {}, {}, {}; {}", counted(space.surfaces.size(), "surface"),
+                           counted(lines.size(), "line"), counted(space.plan.cells.size(), "cell"),
+                           counted(prisms_of(space), "prism"), counted(out.cells.storeys.size(), "storey")));
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "graph/api/text.hpp"
 #include "modules/layout/coverage.hpp"
 #include "modules/layout/enclosure.hpp"
 #include "modules/layout/hidden_walls.hpp"
@@ -246,7 +247,7 @@ Rooms::Out Rooms::run(const In& in, const Params& params, Context& context) {
   if (rooms.empty()) context.warn("no cell is inside: there is no room in this scan");
   double area = 0;
   for (const auto& room : rooms) area += room.area;
-  context.info(fmt::format("{} rooms of {:.1f} m2", rooms.size(), area));
+  context.info(fmt::format("{} of {:.1f} m2", counted(rooms.size(), "room"), area));
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "graph/api/error.hpp"
+#include "modules/geometry/quantile.hpp"
 #include "modules/layout/end_lines.hpp"
 
 namespace atrium::layout {
@@ -54,19 +55,6 @@ class Storey {
     planes_.lines.push_back(std::move(*wall));
   }
 
-  /// The value below which a share of the weight lies.
-  static double quantile(std::vector<std::pair<double, double>> values, double share) {
-    std::sort(values.begin(), values.end());
-    double total = 0;
-    for (const auto& v : values) total += v.second;
-    double sum = 0;
-    for (const auto& v : values) {
-      sum += v.second;
-      if (sum >= share * total) return v.first;
-    }
-    return values.back().first;
-  }
-
   void settle_heights() {
     const auto largest = [&](const std::vector<CellSurface>& surfaces) {
       const CellSurface* best = nullptr;
@@ -82,12 +70,13 @@ class Storey {
       throw Error(fmt::format("storey {} has no walls, and not both a floor and a ceiling", index_),
                   "a room needs planes around it: does the scan show one?");
     constexpr double most = 0.8, many = 0.4;
-    planes_.floor_height = planes_.floors.empty() ? quantile(bottoms_, 1 - most) : height(*largest(planes_.floors));
+    planes_.floor_height =
+        planes_.floors.empty() ? weighted_quantile(bottoms_, 1 - most) : height(*largest(planes_.floors));
     const bool scanned =
         !planes_.ceilings.empty() && (tops_.empty() || 3 * area(planes_.ceilings) >= area(planes_.floors));
-    planes_.ceiling_height = scanned ? height(*largest(planes_.ceilings)) : quantile(tops_, most);
+    planes_.ceiling_height = scanned ? height(*largest(planes_.ceilings)) : weighted_quantile(tops_, most);
     if (planes_.floors.empty()) planes_.floors.push_back({{{0, 0, 1}, -planes_.floor_height}, -1, {}});
-    if (!scanned) planes_.wall_end = quantile(tops_, many);
+    if (!scanned) planes_.wall_end = weighted_quantile(tops_, many);
     if (!scanned) planes_.ceilings.push_back({{{0, 0, -1}, planes_.ceiling_height}, -1, {}});
   }
 

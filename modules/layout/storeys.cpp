@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "graph/api/text.hpp"
 #include "modules/layout/raster.hpp"
 #include "modules/layout/shelter.hpp"
 #include "modules/layout/wall_lines.hpp"
@@ -337,11 +338,13 @@ class Finder {
 Storeys::Out Storeys::run(const In& in, const Params& params, Context& context) {
   Out out{Finder(*in.planes, params, context).run()};
   out.structure.primitives = in.planes;
-  const auto count = [&](SurfaceClass c) {
-    return std::count(out.structure.classes.begin(), out.structure.classes.end(), c);
+  const auto candidates = [&](SurfaceClass c) {
+    const auto count = std::count(out.structure.classes.begin(), out.structure.classes.end(), c);
+    return counted(static_cast<std::size_t>(count), name_of(c));
   };
-  context.info(fmt::format("{} storeys; candidates: {} floors, {} ceilings, {} walls", out.structure.storey_count,
-                           count(SurfaceClass::floor), count(SurfaceClass::ceiling), count(SurfaceClass::wall)));
+  context.info(fmt::format("{}; candidates: {}, {}, {}", counted(out.structure.storey_count, "storey"),
+                           candidates(SurfaceClass::floor), candidates(SurfaceClass::ceiling),
+                           candidates(SurfaceClass::wall)));
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "graph/api/error.hpp"
+#include "graph/api/text.hpp"
 #include "modules/layout/confidence.hpp"
 #include "modules/layout/faces.hpp"
 
@@ -78,7 +79,8 @@ Surest::Out Surest::run(const In& in, const Params& params, Context& context) {
   const bool better = other.confirmed() > (1 + params.margin) * first.confirmed();
   const auto say = [](const Judgement& j) {
     if (!j.refused.empty()) return j.refused;
-    return fmt::format("{} rooms, confidence {:.2f}, {:.1f} m2 of faces observed", j.rooms, j.confidence, j.observed);
+    return fmt::format("{}, confidence {:.2f}, {:.1f} m2 of faces observed", counted(j.rooms, "room"), j.confidence,
+                       j.observed);
   };
   context.info(
       fmt::format("the {} proposal: first: {}; other: {}", better ? "other" : "first", say(first), say(other)));

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "modules/geometry/quantile.hpp"
+
 namespace atrium::layout {
 namespace {
 
@@ -14,8 +16,7 @@ std::pair<int, int> full_rows(std::vector<std::pair<int, int>> rows) {
   std::vector<int> counts;
   counts.reserve(rows.size());
   for (const auto& row : rows) counts.push_back(row.first);
-  std::nth_element(counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2), counts.end());
-  const double least = full * counts[counts.size() / 2];
+  const double least = full * median(std::move(counts));
   std::erase_if(rows, [&](const auto& row) { return row.first < least; });
   return {rows.front().second, rows.back().second};
 }

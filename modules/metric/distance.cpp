@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "modules/geometry/quantile.hpp"
 #include "modules/metric/mesh_samples.hpp"
 #include "modules/metric/point_distance.hpp"
 
@@ -20,18 +21,16 @@ struct Summary {
   std::optional<double> within_rms;  // none if nothing is within the limit
 };
 
-// The k-th of the distances, counted from 1, for the share of all of them.
-float quantile(std::vector<float>& distances, double share) {
-  const auto k = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(distances.size())));
-  const auto at = distances.begin() + std::max<std::ptrdiff_t>(k, 1) - 1;
-  std::nth_element(distances.begin(), at, distances.end());
-  return *at;
+// The least of the distances that has the share of all of them at or below it.
+float nearest_rank(std::vector<float>& distances, double share) {
+  const auto k = static_cast<std::size_t>(std::ceil(share * static_cast<double>(distances.size())));
+  return ranked(distances, std::max<std::size_t>(k, 1) - 1);
 }
 
 // Of distances that all count the same. Partial sums are joined in order, so threads change no bit.
 Summary summarise(const std::vector<float>& distances, double limit, const Context& context) {
   std::vector<float> copy = distances;
-  const float median = quantile(copy, 0.5), p95 = quantile(copy, high);
+  const float median = nearest_rank(copy, 0.5), p95 = nearest_rank(copy, high);
   struct Part {
     double sum = 0, squares = 0, below_squares = 0, within_squares = 0;
     std::size_t below = 0, within = 0;

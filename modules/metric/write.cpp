@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "graph/api/write_output.hpp"
+
 namespace atrium::metric {
 namespace {
 
@@ -77,11 +79,8 @@ void Write::run(const In& in, const Params& params, Context& context) {
         context.warn("metric '" + metric.name + "' is not a finite number: written as null");
       *at = {{"value", std::isfinite(metric.value) ? Json(metric.value) : Json()}, {"unit", metric.unit}};
     }
-  const auto path = context.output(params.path.path);
-  AtomicFile file(path);
-  file.write(wants_csv(params.path.path) ? csv : root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  file.commit();
-  context.wrote(path);
+  write_output(context, params.path.path,
+               wants_csv(params.path.path) ? csv : root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   return;
 }
 

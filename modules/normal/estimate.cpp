@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "graph/api/text.hpp"
 #include "modules/normal/local_plane.hpp"
 
 namespace atrium::normal {
@@ -30,7 +31,8 @@ Estimate::Out Estimate::run(const In& in, const Params& params, Context& context
   std::vector<std::uint32_t> missing;
   if (points.size() < 3) {
     if (!points.empty())
-      context.warn(fmt::format("a cloud of {} points has no surface: its normals are set to +z", points.size()));
+      context.warn(
+          fmt::format("a cloud of {} has no surface: its normals are set to +z", counted(points.size(), "point")));
   } else if (params.method == Method::neighbours) {
     std::vector<std::uint32_t> all(points.size());
     std::iota(all.begin(), all.end(), 0U);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "modules/geometry/point_grid.hpp"
+#include "modules/geometry/quantile.hpp"
 #include "modules/normal/local_plane.hpp"
 
 namespace atrium::normal {
@@ -105,9 +106,7 @@ class Voxels {
       if (p.n >= 8) residuals.push_back(p.residual);
     const double least = std::pow(1e-3 * grid_.cell_size(), 2);
     if (residuals.empty()) return least;
-    const auto third = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 3);
-    std::nth_element(residuals.begin(), third, residuals.end());
-    return std::max(least, *third);
+    return std::max(least, ranked(residuals, residuals.size() / 3));
   }
 
   LocalPlane refit(const LocalPlane& plane, const Around& around) const {

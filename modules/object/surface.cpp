@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "graph/api/error.hpp"
+#include "graph/api/text.hpp"
 #include "modules/geometry/point_tree.hpp"
+#include "modules/geometry/quantile.hpp"
 
 namespace atrium::object {
 namespace {
@@ -30,7 +32,7 @@ std::vector<std::uint32_t> nearest_points(const std::vector<Eigen::Vector3f>& po
 
 bool is_surface(const Cloud& cloud, const Context& context) {
   if (cloud.size() < least_points) {
-    context.info(fmt::format("{} points are no surface: the mesh is empty", cloud.size()));
+    context.info(counted(cloud.size(), "point is", "points are") + " no surface: the mesh is empty");
     return false;
   }
   if (!cloud.has_normals())
@@ -62,9 +64,7 @@ double surface_spacing(const Cloud& cloud, const Context& context) {
       squares[i] = static_cast<double>(found.back().squared_distance);
     }
   });
-  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-  std::nth_element(squares.begin(), middle, squares.end());
-  return std::sqrt(std::numbers::pi * *middle / static_cast<double>(neighbours));
+  return std::sqrt(std::numbers::pi * median(std::move(squares)) / static_cast<double>(neighbours));
 }
 
 Mesh finished(const RawSurface& surface, const Cloud& cloud, double max_distance, const Context& context) {

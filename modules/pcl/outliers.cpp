@@ -4,6 +4,7 @@
 #include <pcl/filters/radius_outlier_removal.h>
 #include <pcl/filters/statistical_outlier_removal.h>
 
+#include "graph/api/text.hpp"
 #include "modules/pcl/pcl_cloud.hpp"
 
 namespace atrium::pcl_nodes {
@@ -36,8 +37,8 @@ Outliers::Out Outliers::run(const In& in, const Params& params, Context& context
   const bool by_statistics = params.method == OutlierMethod::statistical;
   if (cloud.size() <= (by_statistics ? static_cast<std::size_t>(params.neighbours) : 0)) {
     if (cloud.size() > 0)
-      context.warn(fmt::format("{} points are too few to find outliers by their {} neighbours", cloud.size(),
-                               params.neighbours));
+      context.warn(fmt::format("{} too few to find outliers by {} neighbours",
+                               counted(cloud.size(), "point is", "points are"), params.neighbours));
     return {cloud, 0};
   }
   Out out{select(cloud, from_pcl(by_statistics ? statistical(cloud, params) : within_radius(cloud, params)))};

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "graph/api/error.hpp"
+#include "modules/geometry/quantile.hpp"
 #include "modules/pcl/pcl_cloud.hpp"
 
 namespace atrium::pcl_nodes {
@@ -105,9 +106,8 @@ double origin_of(const Column& column, const std::vector<std::uint32_t>& rows) {
   std::vector<double> values;
   values.reserve(rows.size());
   for (const auto i : rows) values.push_back(column[i]);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return std::abs(*middle) > far ? std::round(*middle) : 0;
+  const double middle = median(std::move(values));
+  return std::abs(middle) > far ? std::round(middle) : 0;
 }
 
 void read_normals(const pcl::PCLPointCloud2& file, const std::vector<std::uint32_t>& rows, Cloud& cloud,

@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 
+#include "graph/api/text.hpp"
 #include "modules/pcl/pcl_cloud.hpp"
 
 namespace atrium::pcl_nodes {
@@ -54,7 +55,8 @@ void name_cancelled_normals(Cloud& cloud, Context& context) {
     normal = Eigen::Vector3f::UnitZ();
     ++cancelled;
   }
-  if (cancelled > 0) context.warn(fmt::format("the normals of {} voxels cancel out: they are set to +z", cancelled));
+  if (cancelled > 0)
+    context.warn(fmt::format("the normals of {} cancel out: they are set to +z", counted(cancelled, "voxel")));
 }
 
 }  // namespace

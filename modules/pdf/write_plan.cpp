@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "graph/api/text.hpp"
+#include "graph/api/write_output.hpp"
 #include "modules/floorplan/caption.hpp"
 #include "modules/pdf/pdf_pages.hpp"
 
@@ -68,30 +70,24 @@ void warn_of_fonts(const DrawnPlan& drawn, const std::string& title, const Conte
   context.warn(
       fmt::format("no installed font has all characters of '{}'{}: boxes stand for them (Debian's "
                   "fonts-noto-core and fonts-noto-cjk have most scripts)",
-                  lacking.front(), lacking.size() > 1 ? fmt::format(" and {} more texts", lacking.size() - 1) : ""));
+                  lacking.front(), lacking.size() > 1 ? " and " + counted(lacking.size() - 1, "more text") : ""));
 }
 
 }  // namespace
 
 void WritePlan::run(const In& in, const Params& params, Context& context) {
   const FloorPlan& plan = *in.plan;
-  const floorplan::PlanDrawing drawing{params.title, params.storey,     params.paper, params.scale,
-                                       params.axes,  params.dimensions, params.units};
-  const DrawnPlan drawn = floorplan::drawn_plan(plan, drawing);
+  const DrawnPlan drawn = floorplan::drawn_plan(plan, params.storey, params.axes);
   if (drawn.storeys.empty()) context.warn("the plan is empty: " + params.path.path + " shows nothing");
   warn_of_fonts(drawn, params.title, context);
   const std::vector<DrawnPlan> pages = pages_of(drawn);
   const std::vector<Sheet> sheets = sheets_of(pages, floorplan::origin_height(plan), params);
   PdfPages pdf(params.title);
   for (std::size_t i = 0; i < pages.size(); ++i)
-    pdf.add(floorplan::svg_sheet(plan, pages[i], sheets[i], drawing,
+    pdf.add(floorplan::svg_sheet(plan, pages[i], sheets[i], params.title, params.dimensions,
                                  pages.size() > 1 ? fmt::format("; page {} of {}", i + 1, pages.size()) : ""),
             sheets[i].size);
-  const auto path = context.output(params.path.path);
-  AtomicFile file(path);
-  file.write(std::move(pdf).finish());
-  file.commit();
-  context.wrote(path);
+  write_output(context, params.path.path, std::move(pdf).finish());
 }
 
 }  // namespace atrium::pdf

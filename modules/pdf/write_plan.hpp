@@ -1,5 +1,4 @@
 #pragma once
-#include "graph/api/node.hpp"
 #include "modules/floorplan/plan_drawing.hpp"
 
 namespace atrium::pdf {
@@ -25,35 +24,9 @@ struct WritePlan {
   struct In {
     Input<FloorPlan> plan;
   };
-  struct Params {
-    OutputPath path{"floorplan.pdf"};
-    std::string title = "Floor plan";
-    std::int32_t storey = -1;
-    floorplan::Paper paper = floorplan::Paper::automatic;
-    std::int32_t scale = 0;
-    floorplan::Axes axes = floorplan::Axes::walls;
-    bool dimensions = true;
-    floorplan::Units units = floorplan::Units::metres;
-  };
+  using Params = floorplan::PlanParams<floorplan::PlanFile::pdf>;
   static constexpr auto inputs = std::tuple{port<&In::plan>("What to draw.")};
-  static constexpr auto params = std::tuple{
-      param<&Params::path>("The file, in the run's folder."),
-      param<&Params::title>("What stands in the title block."),
-      param<&Params::storey>(count, within(-1, 10000), "The storey to draw, 0 the lowest; -1: all of them."),
-      param<&Params::paper>({{"auto", floorplan::Paper::automatic},
-                             {"A4", floorplan::Paper::a4},
-                             {"A3", floorplan::Paper::a3},
-                             {"A2", floorplan::Paper::a2},
-                             {"A1", floorplan::Paper::a1},
-                             {"A0", floorplan::Paper::a0}},
-                            "The pages, upright or lying; auto: A4 or A3, larger if it must be."),
-      param<&Params::scale>(unitless, within(0, 100000), "50 means 1:50; 0: the greatest that fits."),
-      param<&Params::axes>({{"walls", floorplan::Axes::walls}, {"input", floorplan::Axes::input}},
-                           "What is parallel to the page: the walls, or the input's x and y."),
-      param<&Params::dimensions>("Draw the chains of dimensions."),
-      param<&Params::units>(floorplan::unit_choices,
-                            "What lengths are written in; areas are in m², of ft-in in sq ft."),
-  };
+  static constexpr auto params = Params::table();
   static void run(const In& in, const Params& params, Context& context);
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "graph/api/text.hpp"
 #include "modules/plane/measured_plane.hpp"
 
 namespace atrium::plane {
@@ -120,7 +121,7 @@ Adopt::Out Adopt::run(const In& in, const Params& params, Context& context) {
     std::sort(primitive.inliers.begin(), primitive.inliers.end());
     if (measured[i].moments.count > 0) primitive.residual = measured[i].rms_to(primitive.plane);
   }
-  context.info(fmt::format("{} points joined planes, within {:.1f} mm", count, 1000 * distance));
+  context.info(fmt::format("{} joined planes, within {:.1f} mm", counted(count, "point"), 1000 * distance));
   return out;
 }
 

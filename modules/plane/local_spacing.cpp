@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
+
+#include "modules/geometry/quantile.hpp"
 
 namespace atrium::plane {
 namespace {
@@ -33,9 +36,7 @@ float spacing_of(const PointColumns& columns, std::size_t begin, std::size_t cou
     edges[k - 1] = step[nearest];
     current = nearest;
   }
-  const auto rank = edges.begin() + left_out;
-  std::nth_element(edges.begin(), rank, edges.begin() + static_cast<std::ptrdiff_t>(count - 1), std::greater<>());
-  return std::sqrt(*rank);
+  return std::sqrt(ranked(std::span(edges).first(count - 1), count - 2 - left_out));
 }
 
 }  // namespace
@@ -48,17 +49,12 @@ double LocalSpacing::reach(const std::vector<std::uint32_t>& places) const {
   const std::size_t step = std::max<std::size_t>(1, places.size() / samples);
   for (std::size_t i = 0; i < places.size(); i += step) values.push_back(at(places[i]));
   if (values.empty()) return least;
-  const auto upper = values.begin() + static_cast<std::ptrdiff_t>(3 * values.size() / 4);
-  std::nth_element(values.begin(), upper, values.end());
-  return std::max(least, reach_per_spacing * static_cast<double>(*upper));
+  return std::max(least, reach_per_spacing * static_cast<double>(ranked(values, 3 * values.size() / 4)));
 }
 
 double LocalSpacing::quantile(double share) const {
   if (spacings_.empty()) return 0;
-  std::vector<float> values = spacings_;
-  const auto rank = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), rank, values.end());
-  return static_cast<double>(*rank);
+  return static_cast<double>(atrium::quantile(spacings_, share));
 }
 
 LocalSpacing::LocalSpacing(const MortonOrder& order, const Context& context) {

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "graph/api/text.hpp"
 #include "modules/plane/measured_plane.hpp"
 
 namespace atrium::plane {
@@ -172,8 +173,8 @@ MergeCoplanar::Out MergeCoplanar::run(const In& in, const Params& params, Contex
       1);
   std::stable_sort(out.planes.primitives.begin(), out.planes.primitives.end(),
                    [](const auto& a, const auto& b) { return a.inliers.size() > b.inliers.size(); });
-  context.info(fmt::format("{} planes of {} primitives, within {:.1f} mm", groups.size(), in.planes->primitives.size(),
-                           1000 * distance));
+  context.info(fmt::format("{} of {}, within {:.1f} mm", counted(groups.size(), "plane"),
+                           counted(in.planes->primitives.size(), "primitive"), 1000 * distance));
   return out;
 }
 

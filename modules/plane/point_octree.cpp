@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "modules/geometry/quantile.hpp"
 #include "modules/geometry/radix_sort.hpp"
 
 namespace atrium::plane {
@@ -34,16 +35,14 @@ std::uint64_t morton_code(const Eigen::Vector3d& p, double cell) {
 
 /// The median of each coordinate over a thousand points spread over the cloud.
 Eigen::Vector3d sampled_median(const Cloud& cloud) {
-  Eigen::Vector3d median = Eigen::Vector3d::Zero();
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   const std::size_t step = std::max<std::size_t>(1, cloud.size() / 1000);
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<float> values;
     for (std::size_t i = 0; i < cloud.size(); i += step) values.push_back(cloud.points[i][axis]);
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    median[axis] = *middle;
+    middle[axis] = median(std::move(values));
   }
-  return median;
+  return middle;
 }
 
 struct Item {

@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "graph/api/text.hpp"
+#include "modules/geometry/quantile.hpp"
 #include "modules/plane/assignment.hpp"
 #include "modules/plane/grow_regions.hpp"
 #include "modules/plane/local_spacing.hpp"
@@ -29,12 +31,6 @@ struct Settings {
   VoxelGrid::Planarity planarity;
   GrowthLimits limits;
 };
-
-double quantile(std::vector<double> values, double share) {
-  const auto rank = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), rank, values.end());
-  return *rank;
-}
 
 /// The finest level, from voxels of the least size on, at which half of the points share their voxel with enough others
 /// for a plane.
@@ -68,7 +64,7 @@ double noise_of(const VoxelGrid& grid, bool fine) {
     grid.visit_neighbours(flat[k], [&](std::uint32_t other) { moments += grid.voxels()[other].moments; });
     residuals.push_back(std::sqrt(fit_plane(moments).variances[0]));
   }
-  return quantile(std::move(residuals), fine ? 0.5 : 0.25);
+  return ranked(residuals, residuals.size() / (fine ? 2 : 4));
 }
 
 /// Half of the points that a surface of this area holds where the scan is sparse.
@@ -150,8 +146,8 @@ std::optional<VoxelGrid> derive_from_noise(const MortonOrder& order, const std::
 }
 
 void report(const SeenSides& sides, std::size_t planes, const Context& context) {
-  context.info(fmt::format("sides told by positions for {} planes, by free space for {}, by normals for {}",
-                           sides.by_positions, sides.by_free_space, sides.by_normals));
+  context.info(fmt::format("sides told by positions for {}, by free space for {}, by normals for {}",
+                           counted(sides.by_positions, "plane"), sides.by_free_space, sides.by_normals));
   if (2 * sides.turned_against_normals > planes)
     context.warn(fmt::format(
         "the normals of {} of {} planes look to the side from which they were not seen: only their axes are used",

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <optional>
 
+#include "graph/api/text.hpp"
+#include "modules/geometry/quantile.hpp"
 #include "modules/plane/measured_plane.hpp"
 #include "modules/plane/position_shifts.hpp"
 #include "modules/plane/region_growing.hpp"
@@ -104,18 +106,9 @@ std::vector<SharedPlane> pairs_of(const std::vector<SeenPatch>& patches, const s
 /// The distance that half of the shared area is below.
 double median_offset(const std::vector<SharedPlane>& pairs) {
   std::vector<std::pair<double, double>> offsets;
-  double area = 0;
-  for (const auto& pair : pairs) {
-    offsets.emplace_back(std::abs(pair.offset), pair.area);
-    area += pair.area;
-  }
-  std::sort(offsets.begin(), offsets.end());
-  double sum = 0;
-  for (const auto& [offset, share] : offsets) {
-    sum += share;
-    if (sum >= area / 2) return offset;
-  }
-  return 0;
+  offsets.reserve(pairs.size());
+  for (const auto& pair : pairs) offsets.emplace_back(std::abs(pair.offset), pair.area);
+  return offsets.empty() ? 0 : weighted_quantile(std::move(offsets), 0.5);
 }
 
 std::shared_ptr<const Cloud> shifted(const Cloud& cloud, const std::vector<Eigen::Vector3d>& shifts) {
@@ -154,9 +147,9 @@ RegisterPositions::Out RegisterPositions::run(const In& in, const Params& params
   }
   double most = 0;
   for (const auto& shift : shifts) most = std::max(most, shift.norm());
-  context.info(fmt::format(
-      "{} positions moved by up to {:.1f} mm; shared planes {:.1f} mm apart before, {:.1f} mm after", shifts.size(),
-      1000 * most, 1000 * before, 1000 * median_offset(pairs_of(patches, shifts, params, context))));
+  context.info(fmt::format("{} moved by up to {:.1f} mm; shared planes {:.1f} mm apart before, {:.1f} mm after",
+                           counted(shifts.size(), "position"), 1000 * most, 1000 * before,
+                           1000 * median_offset(pairs_of(patches, shifts, params, context))));
   return {shifted(cloud, shifts)};
 }
 

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "graph/api/text.hpp"
 #include "modules/plane/measured_plane.hpp"
 
 namespace atrium::plane {
@@ -171,8 +172,9 @@ Regularize::Out Regularize::run(const In& in, const Params& params, Context& con
     out.planes.primitives[i].plane = measured[i].plane;
     out.planes.primitives[i].residual = measured[i].rms_to(measured[i].plane);
   }
-  context.info(fmt::format("{} of {} planes vertical or horizontal, {} families of wall directions, within {:.1f} mm",
-                           turning.turned(), measured.size(), turning.families(), 1000 * distance));
+  context.info(fmt::format("{} of {} vertical or horizontal, {} of wall directions, within {:.1f} mm", turning.turned(),
+                           counted(measured.size(), "plane"), counted(turning.families(), "family", "families"),
+                           1000 * distance));
   return out;
 }
 

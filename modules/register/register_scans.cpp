@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "graph/api/text.hpp"
 #include "modules/geometry/point_grid.hpp"
+#include "modules/geometry/quantile.hpp"
 #include "modules/register/join_clouds.hpp"
 
 namespace atrium::registration {
@@ -65,18 +67,17 @@ Fitness fitness_of(const Points& source, const PointTree& target, double reach) 
     squares += static_cast<double>(n.squared_distance);
   }
   if (distances.empty()) return {};
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
   const auto n = static_cast<double>(distances.size());
-  return {n / static_cast<double>(source.size()), *middle, std::sqrt(squares / n)};
+  return {n / static_cast<double>(source.size()), median(std::move(distances)), std::sqrt(squares / n)};
 }
 
 RegisteredScans register_scans(const Inputs<Cloud>& clouds, const RegisterSettings& settings, const AlignPair& align,
                                Context& context) {
   const std::size_t scans = clouds.size();
   if (!settings.initial.empty() && settings.initial.size() != 4 * (scans - 1))
-    throw Error(fmt::format("{} numbers in `initial` for {} scans", settings.initial.size(), scans),
-                "x y z yaw for each scan after the first");
+    throw Error(
+        fmt::format("{} in `initial` for {}", counted(settings.initial.size(), "number"), counted(scans, "scan")),
+        "x y z yaw for each scan after the first");
   const Eigen::Vector3d origin = clouds.front()->origin;
   RegisteredScans out;
   Points target, dense;  // what was registered so far, thinned for GICP and for measuring

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "modules/geometry/quantile.hpp"
+
 namespace atrium::registration {
 namespace {
 
@@ -47,9 +49,7 @@ double floor_height(const std::vector<Eigen::Vector3f>& points) {
   std::vector<float> heights;
   heights.reserve(points.size());
   for (const auto& p : points) heights.push_back(p.z());
-  const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 50);
-  std::nth_element(heights.begin(), low, heights.end());
-  return *low;
+  return ranked(heights, heights.size() / 50);
 }
 
 struct Start {

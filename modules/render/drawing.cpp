@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 
+#include "modules/geometry/quantile.hpp"
 #include "modules/render/drawing_impl.hpp"
 #include "modules/render/point_spacing.hpp"
 
@@ -18,15 +19,6 @@ namespace atrium::render {
 namespace {
 
 constexpr std::size_t most_surface_points = 300000;
-
-/// Drops the outermost `share` of the values at each end.
-std::pair<float, float> trimmed_range(std::vector<float> values, double share) {
-  const auto cut = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), values.begin() + cut, values.end());
-  const float low = values[static_cast<std::size_t>(cut)];
-  std::nth_element(values.begin(), values.end() - 1 - cut, values.end());
-  return {low, *(values.end() - 1 - cut)};
-}
 
 Eigen::AlignedBox3d trimmed_box(const std::vector<Eigen::Vector3f>& places, double share) {
   Eigen::AlignedBox3d box;

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "modules/render/quantile.hpp"
+#include "modules/geometry/quantile.hpp"
 
 namespace atrium::render {
 namespace {

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "graph/api/error.hpp"
+#include "modules/geometry/quantile.hpp"
 #include "modules/geometry/triangle_tree.hpp"
-#include "modules/render/quantile.hpp"
 
 namespace atrium::render {
 namespace {

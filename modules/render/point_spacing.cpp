@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "modules/geometry/quantile.hpp"
+
 namespace atrium::render {
 namespace {
 
@@ -60,11 +62,9 @@ PointSpacing point_spacing(const std::vector<Eigen::Vector3f>& points) {
     if (points.size() >= wanted * cubes.keys.size()) break;
   }
   cubes.fill(points, 1);
-  std::vector<std::uint32_t> sorted = cubes.counts;
-  const auto median = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), median, sorted.end());
-  result.spacing = cubes.size / std::sqrt(static_cast<double>(*median));
-  const std::uint32_t few = *median / 4;
+  const std::uint32_t usual = median(cubes.counts);
+  result.spacing = cubes.size / std::sqrt(static_cast<double>(usual));
+  const std::uint32_t few = usual / 4;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto cube = std::lower_bound(cubes.keys.begin(), cubes.keys.end(), cubes.key(points[i]));
     result.lone[i] = cubes.counts[static_cast<std::size_t>(cube - cubes.keys.begin())] <= few ? 1 : 0;

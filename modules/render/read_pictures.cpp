@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "graph/api/text.hpp"
 #include "modules/render/png.hpp"
 
 namespace atrium::render {
@@ -11,7 +12,8 @@ namespace atrium::render {
 ReadPictures::Out ReadPictures::run(const Params& params, Context& context) {
   if (params.files.empty()) throw Error("no picture is named", "set `files` to a list of PNG files");
   if (params.captions.size() > params.files.size())
-    throw Error(fmt::format("there are {} captions for {} files", params.captions.size(), params.files.size()));
+    throw Error(
+        fmt::format("{} for {}", counted(params.captions.size(), "caption"), counted(params.files.size(), "file")));
   Out out;
   const Picture* shape = nullptr;
   out.pictures.pictures.reserve(params.files.size());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/geometry/quantile.hpp"
 #include "modules/scene/pull_push.hpp"
 
 namespace atrium::scene {
@@ -91,9 +92,7 @@ std::vector<float> around(const std::vector<float>& values, int columns) {
 float support_of(std::vector<float> near) {
   near.erase(std::remove_if(near.begin(), near.end(), [](float n) { return n < 1; }), near.end());
   if (near.empty()) return least_support;
-  const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
-  std::nth_element(near.begin(), middle, near.end());
-  return std::max(least_support, support_share * *middle);
+  return std::max(least_support, support_share * median(std::move(near)));
 }
 
 /// Sums become means. A pixel is doubted where the plane is covered and where it has few neighbours.

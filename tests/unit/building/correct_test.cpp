@@ -5,121 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <set>
 
-#include "houses.hpp"
-#include "modules/building/corrections_file.hpp"
+#include "corrections.hpp"
 #include "modules/building/elements.hpp"
-#include "modules/building/room_shell.hpp"
-#include "modules/layout/mesh.hpp"
-#include "modules/metric/validity.hpp"
-#include "modules/types/building_rules.hpp"
-#include "tests/support/temporary_folder.hpp"
-#include "writing_host.hpp"
 
 namespace atrium::building::correct_test {
 namespace {
 
 using test::BoxBuilding;
+using test::Corrections;
 using test::House;
-
-/// Two rooms, 4 m × 3 m and 2.88 m × 3 m, 2.5 m high, with 12 cm of wall from x = 4; faces 0 … 5 and 6 … 11 are floor,
-/// ceiling, and the walls at y0, x1, y1, x0.
-class Corrections : public ::testing::Test {
- protected:
-  test::TemporaryFolder folder;
-  std::shared_ptr<test::WritingHost> host = std::make_shared<test::WritingHost>();
-
-  Building corrected(const Building& building, const std::string& lines, const Transform& transform = {},
-                     double unit = 1) {
-    const auto file = folder / "corrections.yaml";
-    test::write_text(file, "atrium_corrections: 1\ncorrections:\n" + lines);
-    Context context{1, host};
-    Cloud cloud;
-    cloud.unit = unit;
-    const auto out = Correct::run({input(building), input(transform), input(cloud)}, {{{file.string()}}}, context);
-    check(*out.building);
-    expect_closed_rooms(out.building);
-    return *out.building;
-  }
-  /// Each room's surface is one closed 2-manifold without crossings.
-  static void expect_closed_rooms(const std::shared_ptr<const Building>& building) {
-    Context context;
-    const Mesh shell = layout::Mesh::run({building, {}}, {}).shell;
-    metric::Validity::Params params;
-    params.listed = 0;
-    for (std::size_t r = 0; r < building->rooms.size(); ++r) {
-      Mesh mesh = shell;
-      mesh.triangles.clear();
-      for (std::size_t t = 0; t < shell.triangles.size(); ++t)
-        if (building->faces[static_cast<std::size_t>(shell.primitives[t])].room == static_cast<std::int32_t>(r))
-          mesh.triangles.push_back(shell.triangles[t]);
-      mesh.classes.resize(mesh.triangles.size());
-      mesh.storeys.resize(mesh.triangles.size());
-      mesh.primitives.resize(mesh.triangles.size());
-      for (const auto& m : metric::Validity::run({input(mesh)}, params, context).metrics.values) {
-        if (m.name == "validity.components" || m.name == "validity.components.watertight") {
-          EXPECT_EQ(m.value, 1) << m.name;
-        }
-        for (const char* none : {"degenerate_faces", "edges.boundary", "edges.non_manifold", "edges.misoriented",
-                                 "vertices.non_manifold", "self_intersections.crossing"}) {
-          if (m.name != std::string("validity.") + none) continue;
-          EXPECT_EQ(m.value, 0) << m.name;
-        }
-      }
-    }
-  }
-  /// What the error says after the file's name, and its help.
-  std::string refused(const std::string& lines, const Building& building = BoxBuilding::two_rooms()) {
-    try {
-      corrected(building, lines);
-    } catch (const Error& error) {
-      const std::string text = error.what();
-      const std::string name = (folder / "corrections.yaml").string() + ":";
-      EXPECT_EQ(text.substr(0, name.size()), name);
-      return text.substr(name.size()) + " | " + error.help();
-    }
-    return "nothing was refused";
-  }
-};
-
-const BuildingRoom& room(const Building& building, const std::string& name) {
-  const auto found =
-      std::find_if(building.rooms.begin(), building.rooms.end(), [&](const auto& r) { return r.name == name; });
-  if (found == building.rooms.end()) throw std::runtime_error("no room " + name);
-  return *found;
-}
-
-void expect_room(const Building& building, const std::string& name, double area, double volume, std::size_t faces) {
-  const BuildingRoom& of = room(building, name);
-  EXPECT_NEAR(of.area, area, 1e-9) << name;
-  EXPECT_NEAR(of.volume, volume, 1e-9) << name;
-  EXPECT_NEAR(of.height, volume / area, 1e-9) << name;
-  EXPECT_EQ(of.faces.size(), faces) << name;
-  std::vector<BuildingFace> own;
-  for (const auto f : of.faces) {
-    own.push_back(building.faces[static_cast<std::size_t>(f)]);
-    EXPECT_EQ(&building.rooms[static_cast<std::size_t>(own.back().room)], &of);
-    for (const auto v : own.back().outline)
-      EXPECT_NEAR(own.back().plane.signed_distance(building.vertices[v]), 0, 1e-9) << name << ", face " << f;
-  }
-  EXPECT_TRUE(is_closed(own)) << name;
-  EXPECT_EQ(parts_of(own), 1U) << name;
-}
-
-void expect_box(const std::vector<Eigen::Vector3d>& places, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  Eigen::AlignedBox3d box;
-  for (const auto& p : places) box.extend(p);
-  EXPECT_LT((box.min() - low).norm(), 1e-9) << box.min().transpose();
-  EXPECT_LT((box.max() - high).norm(), 1e-9) << box.max().transpose();
-}
-
-bool begins_with(const std::string& text, const std::string& beginning) { return text.rfind(beginning, 0) == 0; }
-
-bool says(const BuildingRoom& room, const std::string& text) {
-  return std::find(room.doubts.begin(), room.doubts.end(), "corrected by hand: " + text) != room.doubts.end();
-}
 
 TEST_F(Corrections, WithoutAFileTheBuildingIsHandedOn) {
   Context context{1, host};
@@ -458,113 +353,6 @@ TEST_F(Corrections, UnderSlopesWallsMoveToo) {
   // The eaves x = 4 go on under the slope: half a metre further it is half a metre high.
   const Building wider = corrected(house.building, "  - move_wall: {room: room 1, face: 4, by: 0.5 m}\n");
   expect_room(wider, "room 1", 4.5 * 5, 5 * (8 + 0.5 * 0.75), 7);
-}
-
-TEST_F(Corrections, TheFileIsReadWithPlaces) {
-  EXPECT_EQ(refused("  - rename_rom: {room: room 1, name: A}\n"),
-            "3:5: unknown correction 'rename_rom' | did you mean 'rename_room'?");
-  EXPECT_EQ(refused("  - rename_room: {room: room 1, nam: A}\n"),
-            "3:33: unknown key 'nam' of 'rename_room' | did you mean 'name'?");
-  EXPECT_EQ(refused("  - rename_room: {room: room 1}\n"),
-            "3:5: 'name' of 'rename_room' is missing | share/doc/corrections.md shows the format");
-  EXPECT_EQ(refused("  - rename_room: {room: rom 1, name: A}\n"),
-            "3:25: there is no room 'rom 1' | did you mean 'room 1'?");
-  EXPECT_EQ(refused("  - rename_room: {room: room 1, name: room 2}\n"),
-            "3:39: there is a room 'room 2' already | rooms have different names");
-  EXPECT_PRED2(begins_with, refused("  - move_wall: {room: room 1, face: 3, by: far}\n"),
-               "3:44: 'far' is not a number, and 'by' is a length | e.g. 2 cm (len");
-  EXPECT_EQ(refused("  - move_wall: {room: room 1, face: 3, at: [1, 2], by: 1 m}\n"),
-            "3:5: 'move_wall' needs exactly one of wall, face, at | 2 of them are given");
-  EXPECT_PRED2(begins_with, refused("  - move_wall: {room: room 1, at: [1, far], by: 1 m}\n"),
-               "3:39: 'far' is not a number, and 'a");
-  EXPECT_EQ(refused("  - set_thickness: {room: room 1, thickness: 30 cm}\n"),
-            "3:5: 'set_thickness' needs exactly one of wall, face, at | 0 of them are given");
-  EXPECT_EQ(refused("  - change_opening: {opening: door 1}\n"),
-            "3:5: 'change_opening' changes nothing | give one of kind, distance, by, width, height, sill");
-  EXPECT_EQ(refused("  - drop_opening: door 1\n"),
-            "3:19: 'drop_opening' needs its keys | as in `- drop_opening: {opening: …}`");
-  EXPECT_PRED2(begins_with, refused("  - rename_room: {room: [a, name: A}\n"), "3:");
-  EXPECT_EQ(refused("  - rename_room: {room: room 1, name: A}\n  - drop_opening: {opening: window 7}\n"),
-            "4:29: there is no 'window 7' | did you mean 'window 1'?");
-}
-
-TEST_F(Corrections, WallsThatAreNotThereAreNamed) {
-  EXPECT_EQ(refused("  - move_wall: {room: room 1, face: 30, by: 1}\n"),
-            "3:37: there is no face 30 | building.json counts 12 faces from 0");
-  EXPECT_EQ(refused("  - move_wall: {room: room 1, face: 9, by: 1}\n"),
-            "3:37: face 9 is none of 'room 1' | numbers are those of building.json before all corrections; its walls: "
-            "face 2, face 3, face 4, face 5");
-  EXPECT_PRED2(begins_with, refused("  - move_wall: {room: room 1, face: 0, by: 1}\n"),
-               "3:37: face 0 is a floor, not a wal");
-  EXPECT_PRED2(begins_with, refused("  - move_wall: {room: room 1, wall: wall 99, by: 1}\n"),
-               "3:37: there is no 'wall 99' | w");
-  EXPECT_EQ(refused("  - move_wall: {room: room 1, at: [0, 0], by: 1}\n"),
-            "3:35: that place is in the corner of face 2 and face 5 | give one at the middle of the wall");
-  EXPECT_PRED2(begins_with, refused("  - move_wall: {room: room 1, at: [2, 9], by: 1}\n"),
-               "3:35: no wall of 'room 1' is within 1 m of that pla");
-  EXPECT_EQ(refused("  - merge_rooms: {rooms: [room 1, room 2]}\n  - move_wall: {room: room 1, face: 3, by: 1}\n"),
-            "4:37: face 3 is no more: a correction before this one took it away | ");
-}
-
-TEST_F(Corrections, WhatDoesNotFitIsRefused) {
-  EXPECT_EQ(
-      refused("  - move_wall: {room: room 1, face: 3, by: 0.2}\n"),
-      "3:5: 'room 1' would reach 0.24 m2 into 'room 2' | a smaller `by`; or `both: true`, which moves the whole wall");
-  EXPECT_PRED2(begins_with, refused("  - move_wall: {room: room 1, face: 3, by: -4.5}\n"),
-               "3:44: that is too far: after 4.00 m face 1 h");
-  EXPECT_PRED2(begins_with, refused("  - move_wall: {room: room 1, face: 4, by: -2}\n"),
-               "3:5: door 1 would reach beyond its wall, face 3 of 'room 1' | chang");
-  EXPECT_PRED2(begins_with, refused("  - set_ceiling: {room: room 1, height: 1.9}\n"),
-               "3:5: door 1 would reach beyond its wall, face 3 of 'room 1'");
-  EXPECT_PRED2(begins_with,
-               refused("  - add_opening: {room: room 1, face: 3, kind: door, distance: 2.5, width: 0.9, height: 2}\n"),
-               "3:64: the opening leaves its wall, face 3 of 'room 1' | ");
-  EXPECT_EQ(refused("  - add_opening: {room: room 1, face: 3, kind: door, distance: 1, width: 0.9, height: 2}\n"),
-            "3:64: the opening overlaps door 1 | that one is from 1.60 to 2.50 m along face 3, from its left corner");
-  EXPECT_EQ(refused("  - add_opening: {room: room 1, face: 3, kind: window, distance: 0.1, width: 0.9, height: 1}\n"),
-            "3:5: 'sill' of a window is missing | its lower edge over the foot of the wall, as in sill: 90 cm");
-  EXPECT_PRED2(begins_with, refused("  - change_opening: {opening: door 1, by: 0.1}\n"),
-               "3:31: door 1 is seen from two sides, and left and ");
-  EXPECT_PRED2(begins_with, refused("  - split_room: {room: room 1, from: [5, 0], to: [5, 1], names: [A, B]}\n"),
-               "3:38: the line does not cross 'room 1' exactly ");
-  EXPECT_PRED2(begins_with, refused("  - split_room: {room: room 1, from: [2, 0], to: [2, 1], names: [A, B]}\n"),
-               "3:5: window 1 would reach beyond its wall");
-  EXPECT_PRED2(begins_with, refused("  - drop_face: {room: room 1, face: 5}\n"),
-               "3:5: it is not clear what comes in the place of face 5: t");
-}
-
-TEST_F(Corrections, RoomsThatShareNoWallAreNotMerged) {
-  BoxBuilding b;
-  b.room(0, 0, 4, 3);
-  b.room(5, 0, 7, 3);
-  EXPECT_EQ(refused("  - merge_rooms: {rooms: [room 1, room 2]}\n", b.building),
-            "3:26: 'room 1' and 'room 2' share no wall | no two of their walls are back to back at most 0.60 m apart");
-}
-
-TEST_F(Corrections, AnOpeningBeforeTwoRoomsIsRefused) {
-  BoxBuilding b;
-  b.room(0, 0, 4, 6);
-  b.room(4.1, 0, 7, 2.9);
-  b.room(4.1, 3, 7, 6);
-  const std::string text = refused(
-      "  - add_opening: {room: room 1, face: 3, kind: door, distance: 2.5, width: 0.9, height: 2}\n", b.building);
-  EXPECT_PRED2(begins_with, text, "3:64: the opening lies only partly before face 17 of 'room 3' | that wal") << text;
-}
-
-TEST_F(Corrections, TheSchemaHasTheKeysThatAreRead) {
-  const auto schema = nlohmann::json::parse(test::read_text(ATRIUM_SOURCE_DIR "/share/schema/corrections.schema.json"));
-  const auto& all = schema["properties"]["corrections"]["items"]["properties"];
-  EXPECT_EQ(all.size(), correction_rules().size());
-  for (const auto& rule : correction_rules()) {
-    ASSERT_TRUE(all.contains(rule.name)) << rule.name;
-    std::set<std::string> keys, listed;
-    for (const auto* some : {&rule.required, &rule.optional, &rule.one_of, &rule.at_least_one})
-      keys.insert(some->begin(), some->end());
-    for (const auto& entry : all[std::string(rule.name)]["properties"].items()) listed.insert(entry.key());
-    EXPECT_EQ(listed, keys) << rule.name;
-    EXPECT_EQ(all[std::string(rule.name)]["required"].get<std::vector<std::string>>(),
-              std::vector<std::string>(rule.required.begin(), rule.required.end()));
-  }
 }
 
 }  // namespace

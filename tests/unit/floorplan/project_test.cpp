@@ -129,7 +129,7 @@ TEST(Project, ARoomUnderACeilingThatIsTooLowIsToldOf) {
   std::vector<std::string> warnings;
   const FloorPlan plan = plan_of(b.mesh, {}, &warnings);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("1 of the 2 rooms of storey 0"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("storey 0: the ceilings of 1 of 2 rooms"), std::string::npos) << warnings[0];
   EXPECT_NEAR(plan.storeys.at(0).rooms.at(0).height, 2.5, 1e-9);
   EXPECT_EQ(plan.storeys[0].rooms.at(1).height, 0);
 }

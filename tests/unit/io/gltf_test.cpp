@@ -221,7 +221,7 @@ TEST_F(GltfFiles, PrimitivesShareTheirVertices) {
   const Mesh mesh = parse(builder.glb());
   EXPECT_EQ(mesh.vertices.size(), 4U);
   EXPECT_EQ(mesh.triangles.size(), 2U);
-  EXPECT_TRUE(warned("1 primitives are lines")) << warnings();
+  EXPECT_TRUE(warned("1 primitive is of lines")) << warnings();
 }
 
 TEST_F(GltfFiles, QuantisedCoordinatesAndSparseOnesAreRead) {

@@ -124,7 +124,7 @@ TEST_F(MeshFiles, StlNamesWhatIsWrong) {
   EXPECT_CONTAINS(failure("a.stl", "solid a\n"), "without 'endsolid'");
   EXPECT_CONTAINS(failure("a.stl", "solid a\nouter loop\nvertex 0 0\n"),
                   "a.stl:3: the file ends within a facet (truncated?)");
-  EXPECT_CONTAINS(failure("a.stl", "solid a\nouter loop\nvertex 0 0 0\nendloop\n"), "a.stl:4: a facet of 1 vertices");
+  EXPECT_CONTAINS(failure("a.stl", "solid a\nouter loop\nvertex 0 0 0\nendloop\n"), "a.stl:4: a facet of 1 vertex");
   EXPECT_CONTAINS(failure("a.stl", "solid a\nvertex 0 0 0\n"), "a.stl:2: a vertex outside of");
   EXPECT_CONTAINS(failure("a.stl", "solid a\nedge 1 2\n"), "a.stl:2: unknown keyword 'edge'");
 }
@@ -195,7 +195,7 @@ TEST_F(MeshFiles, TrianglesOnBrokenVerticesAreDropped) {
   EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}}));
   EXPECT_EQ(mesh.primitives, (std::vector<std::int32_t>{8}));
   EXPECT_TRUE(warned("1 of 4 vertices and 1 of 2 triangles dropped")) << warnings();
-  EXPECT_TRUE(warned("1 faces of fewer than three corners skipped"));
+  EXPECT_TRUE(warned("1 face of fewer than three corners skipped"));
 }
 
 }  // namespace

@@ -154,7 +154,7 @@ TEST_F(Spellings, ObjLinesGoOnAndCornersHaveEmptyParts) {
                   "a.obj:11: a face's corner is vertex 7, but there are 4 vertices (1 to 4)");
   EXPECT_CONTAINS(failure("a.obj", replaced(more, "1/1/", "1/1/1/1")), "a.obj:11: '1/1/1/1' is not a face's corner");
   mesh("a.obj", obj_text + "cstype bezier\nsurf 0 1 0 1 1 2 3 4\n");
-  EXPECT_TRUE(warned("1 surfaces that are curved or patches are not read")) << warnings();
+  EXPECT_TRUE(warned("1 curved surface or patch is not read")) << warnings();
 }
 
 TEST_F(Spellings, StripsOfTrianglesAreRead) {
@@ -185,10 +185,10 @@ TEST_F(Spellings, StripsOfTrianglesAreRead) {
 
 TEST_F(Spellings, FacesThatAreNotReadAreSaid) {
   mesh("a.ply", replaced(ply_text, "element face", "element patches"));
-  EXPECT_TRUE(warned("the 2 records of element 'patches' are not read: faces are read of the elements")) << warnings();
+  EXPECT_TRUE(warned("2 records of element 'patches' not read: faces are read of the elements")) << warnings();
   host->warnings.clear();
   mesh("a.ply", replaced(ply_text, "vertex_indices", "corners_of_it"));
-  EXPECT_TRUE(warned("the 2 records of element 'face' are not read: they have no list 'vertex_indices'")) << warnings();
+  EXPECT_TRUE(warned("2 records of element 'face' not read: they have no list 'vertex_indices'")) << warnings();
 }
 
 TEST_F(Spellings, StlHasManySpellings) {
@@ -209,7 +209,7 @@ TEST_F(Spellings, StlHasManySpellings) {
     EXPECT_TRUE(warned("facets are declared, but 2 follow: all are read")) << warnings();
   }
   EXPECT_EQ(mesh("a.stl", std::string(binary).replace(80, 1, "\1")).triangles.size(), 1U);
-  EXPECT_TRUE(warned("1 facets are declared, and 50 bytes more follow: these are not read")) << warnings();
+  EXPECT_TRUE(warned("1 facet is declared, and 50 bytes more follow: these are not read")) << warnings();
   EXPECT_CONTAINS(error_of([&] { scan("a.stl", binary.substr(0, 84)); }), "a.stl: no points");
   EXPECT_CONTAINS(error_of([&] { scan("a.stl", "solid a\nendsolid a\n"); }), "a.stl: no points");
 }

@@ -191,7 +191,7 @@ TEST_F(Text, PtsOfSeveralScans) {
   EXPECT_EQ(read("2\n1 2 3\n4 5 6\n7 8 9\n1\n2 2 2\n", "a.pts").size(), 4U);
   EXPECT_TRUE(warned("a.pts:1: 2 points are declared, but 3 lines follow: all are read")) << warnings();
   EXPECT_CONTAINS(failure("2\n1 2 3\n4 5 6\n2\n7 8 9\n", "a.pts"),
-                  "a.pts:4: 2 points are declared, but 1 lines follow");
+                  "a.pts:4: 2 points are declared, but 1 line follows");
   EXPECT_CONTAINS(failure("2\n1 2 3\n4 5 6\n1\n7 8\n", "a.pts"),
                   "a.pts:5: 2 values a point, where the file's other scans have 3");
   const Cloud mixed = read("1\n1 2 3 -9\n2\n1 1 1 5 7 8 9\n2 2 2 6 255 0 1\n1\n7 8 9\n", "a.pts");

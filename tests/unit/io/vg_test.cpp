@@ -120,7 +120,7 @@ TEST_F(Vg, FitsPlanesWhoseParametersAreNoneOrNotTheirs) {
       EXPECT_LT(p.normal.z(), 0);
     }
     EXPECT_EQ(planes.primitives[0].inliers, (std::vector<std::uint32_t>{0, 1, 2, 3}));
-    EXPECT_TRUE(warned("1 planes fitted to their points")) << plane;
+    EXPECT_TRUE(warned("1 plane fitted to the points")) << plane;
   }
 }
 
@@ -140,9 +140,9 @@ TEST_F(Vg, ReadsChildrenAndSaysWhatItSkips) {
             group("0 0 0 0 1", "5 6 7", "1") + group("0 0 1 -1", "") + group("0 0 0 0", "7"));
   ASSERT_EQ(planes.primitives.size(), 2U) << warnings();
   EXPECT_EQ(planes.primitives[1].inliers, (std::vector<std::uint32_t>{4, 5, 6}));
-  EXPECT_TRUE(warned("1 groups are no planes"));
-  EXPECT_TRUE(warned("1 groups have no points of their own"));
-  EXPECT_TRUE(warned("1 groups state no plane and have too few points"));
+  EXPECT_TRUE(warned("1 group is no plane"));
+  EXPECT_TRUE(warned("1 group has no points of its own"));
+  EXPECT_TRUE(warned("1 group states no plane and has too few points"));
   EXPECT_TRUE(warned("2 points are in more than one group"));
 }
 
