@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -110,12 +111,26 @@ Split split_quantity(const ParamInfo& info, std::string_view text) {
   return {value, rest.substr(0, used), trimmed(rest.substr(used))};
 }
 
+/// A unit that was written in other letters, or as a word. Symbols are too short to guess at what is like them: 'kg' is
+/// no misspelt 'km'.
+std::string unit_meant(std::string_view written, const std::vector<std::string>& fitting) {
+  const auto lower = [](std::string_view text) {
+    std::string result(text);
+    for (auto& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return result;
+  };
+  constexpr std::size_t word = 4;  // letters
+  for (const auto& symbol : fitting)
+    if (lower(symbol) == lower(written)) return fmt::format("did you mean '{}'?", symbol);
+  return written.size() < word ? std::string() : did_you_mean(written, fitting);
+}
+
 double to_declared_unit(const ParamInfo& info, std::string_view text, const Split& split) {
   if (split.unit.empty() || split.unit == info.unit.symbol) return split.value;
   const WrittenUnit* unit = find_unit(split.unit);
   const std::vector<std::string> fitting = units_of(info.unit);
   if (unit == nullptr) {
-    const std::string hint = did_you_mean(split.unit, fitting);
+    const std::string hint = unit_meant(split.unit, fitting);
     throw Error(fmt::format("unknown unit '{}' in '{}'", split.unit, text),
                 fitting.empty() ? fmt::format("'{}' has no unit ({})", info.name, describe_param(info))
                                 : fmt::format("{}{}units of {}: {}", hint, hint.empty() ? "" : " ",

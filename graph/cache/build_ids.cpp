@@ -26,6 +26,16 @@ std::string processor() {
 
 bool is_framework(const fs::path& file) { return file.filename().string().starts_with("libatrium.so"); }
 
+/// Whether a program beside the plugins may be one of this plugin's: "atrium-pdf-draw" is that of pdf alone.
+bool may_be_program_of(const fs::path& library, const std::string& program) {
+  constexpr std::string_view prefix = "atrium-";
+  if (!program.starts_with(prefix)) return false;
+  const std::string rest = program.substr(prefix.size());
+  const std::string owner = fmt::format("libatrium_{}.so", rest.substr(0, rest.find('-')));
+  std::error_code ignored;
+  return library.filename() == owner || !fs::exists(library.parent_path() / owner, ignored);
+}
+
 /// A plugin's library, its second one, and the programs beside them.
 std::vector<fs::path> code_of(const fs::path& library) {
   std::error_code ignored;
@@ -33,7 +43,8 @@ std::vector<fs::path> code_of(const fs::path& library) {
   const std::string second = library.stem().string() + "-run.so";
   for (const auto& entry : fs::directory_iterator(library.parent_path(), ignored)) {
     const std::string name = entry.path().filename().string();
-    if (entry.is_regular_file(ignored) && !entry.is_symlink(ignored) && (name == second || name.starts_with("atrium-")))
+    if (entry.is_regular_file(ignored) && !entry.is_symlink(ignored) &&
+        (name == second || may_be_program_of(library, name)))
       files.push_back(entry.path());
   }
   return files;

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "graph/api/plugin.hpp"
+#include "graph/api/text_check.hpp"
 
 namespace atrium {
 namespace {
@@ -59,6 +60,37 @@ bool is_own_module(const std::string& module) {
 
 using StampFunction = const char* (*)();
 using NodesFunction = void (*)(std::vector<NodeType>&);
+using ChecksFunction = void (*)(std::vector<TextCheck>&);
+
+/// What the loaded plugins say of their texts, by node type and parameter.
+class TextChecks {
+ public:
+  static TextChecks& all() {
+    static TextChecks checks;
+    return checks;
+  }
+  void take(void* handle) {
+    const auto function = reinterpret_cast<ChecksFunction>(::dlsym(handle, "atrium_plugin_text_checks"));
+    if (function == nullptr) return;
+    std::vector<TextCheck> checks;
+    function(checks);
+    const std::lock_guard lock(mutex_);
+    for (const auto& check : checks)
+      checks_.try_emplace({std::string(check.type), std::string(check.param)}, check.check);
+  }
+  void run(const std::string& type, const std::string& param, const std::string& text) {
+    decltype(TextCheck::check) check = nullptr;
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto found = checks_.find({type, param}); found != checks_.end()) check = found->second;
+    }
+    if (check != nullptr) check(text);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::pair<std::string, std::string>, decltype(TextCheck::check)> checks_;
+};
 
 void check_stamp(void* handle, const std::string& file) {
   const auto stamp = reinterpret_cast<StampFunction>(::dlsym(handle, "atrium_plugin_stamp"));
@@ -77,6 +109,7 @@ std::vector<NodeType> load_plugin(const std::filesystem::path& file, const std::
   check_stamp(handle, file.string());
   std::vector<NodeType> nodes;
   reinterpret_cast<NodesFunction>(::dlsym(handle, "atrium_plugin_nodes"))(nodes);
+  TextChecks::all().take(handle);
   std::set<std::string> names;
   for (const auto& node : nodes) {
     if (module_of(node.type) != module || node.type.size() <= module.size() + 1)
@@ -116,6 +149,10 @@ struct SecondLibrary {
 };
 
 }  // namespace
+
+void check_text(const std::string& type, const std::string& param, const std::string& text) {
+  TextChecks::all().run(type, param, text);
+}
 
 decltype(NodeType::run) detail::run_of_second_library(const void* anchor, const std::string& type) {
   Dl_info info{};

@@ -7,6 +7,7 @@
 #include "graph/api/folder_lock.hpp"
 #include "graph/api/suggest.hpp"
 #include "graph/api/text.hpp"
+#include "graph/api/text_check.hpp"
 #include "graph/pipeline/expansion.hpp"
 #include "graph/pipeline/files_of.hpp"
 
@@ -138,6 +139,8 @@ class ParamReader {
     if (info.kind == ParamKind::input_paths && !value.value.is_list && is_several(value, where, info)) return;
     try {
       node_->params[index] = parse_param(info, value.value);
+      if (info.kind == ParamKind::text)
+        check_text(node_->type->type, info.name, std::get<std::string>(node_->params[index]));
     } catch (const Error& error) {
       std::vector<std::string> all = value.notes;
       if (origin_->swap != nullptr) all.push_back(origin_->swap->note);

@@ -106,8 +106,25 @@ std::string name_of(const RunRecord::Metric& metric) {
   return metric.fact.name.starts_with(metric.output + ".") ? metric.fact.name : metric.output + "." + metric.fact.name;
 }
 
+/// A sweep has one model per variant: which one is meant?
+void refuse_sweep(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::exists(folder / "sweep.json", ignored)) return;
+  std::vector<std::string> variants;
+  for (const auto& entry : fs::directory_iterator(folder / "variants", ignored))
+    if (fs::exists(entry.path() / "result.json", ignored)) variants.push_back(entry.path().filename().string());
+  std::sort(variants.begin(), variants.end());
+  const std::string place = (folder / "variants").string();
+  throw Error(folder.string() + " is the folder of a sweep, not of one run",
+              variants.empty() ? "none of its variants is done: `atrium sweep run` goes on with it"
+                               : "give one of its variants, as " + place + "/" + variants.front() + " (of " +
+                                     std::to_string(variants.size()) + "); `atrium report " + folder.string() +
+                                     "` compares all of them");
+}
+
 RunRecord read_run(const fs::path& folder) {
   RunRecord record;
+  refuse_sweep(folder);
   record.folder = folder;
   const bool variant = fs::exists(folder / "result.json");
   const fs::path file = folder / (variant ? "result.json" : "manifest.json");

@@ -9,6 +9,7 @@
 #include "graph/api/suggest.hpp"
 #include "graph/pipeline/document.hpp"
 #include "graph/sweep/merge.hpp"
+#include "graph/sweep/shown_names.hpp"
 
 namespace atrium {
 namespace {
@@ -58,6 +59,7 @@ class Planner {
   SweepLoad plan() {
     check_settings();
     check_exclude();
+    shown_.check_units();
     if (const std::size_t combinations = count(); combinations > most_variants)
       findings_.error({&sweep_.source, {}},
                       fmt::format("the sweep has {}{} combinations, more than {}",
@@ -149,7 +151,8 @@ class Planner {
     keep(loaded.errors, errors_, result_.errors);
     keep(loaded.warnings, warnings_, result_.warnings);
     if (!loaded.errors.empty()) return;
-    check_metrics(loaded.pipeline);
+    shown_.add(loaded.pipeline);
+    any_ = true;
     result_.plan.merged[whole].summary = loaded.pipeline[whole].summary;
     merge(loaded.pipeline, choices);
   }
@@ -157,27 +160,6 @@ class Planner {
   static void keep(std::vector<Diagnostic>& found, std::set<std::string>& known, std::vector<Diagnostic>& list) {
     for (auto& finding : found)
       if (known.insert(to_string(finding)).second) list.push_back(std::move(finding));
-  }
-
-  /// The outputs and nodes that the table and the pictures are made from.
-  void check_metrics(const Pipeline& pipeline) {
-    const auto outputs = words_of(pipeline[whole].outputs, [](const PipelineOutput& output) { return output.name; });
-    const auto nodes = all_nodes(pipeline);
-    for (const auto& metric : sweep_.metrics) {
-      const Where where{&sweep_.source, metric.place};
-      if (metric.kind == SweepMetric::Kind::fact) {
-        if (std::find(outputs.begin(), outputs.end(), metric.output) != outputs.end()) continue;
-        const std::string hint = findings_.suggest(metric.output, outputs);
-        findings_.error(where, fmt::format("{} has no output '{}'", sweep_.base_name, metric.output),
-                        !hint.empty()     ? hint
-                        : outputs.empty() ? "list what is to be shown under its `outputs:`"
-                                          : "its outputs: " + join_words(outputs, 40));
-      } else if (!metric.node.empty() && std::none_of(nodes.begin(), nodes.end(), [&](std::size_t n) {
-                   return pipeline[n].path == metric.node || pipeline[n].path.starts_with(metric.node + "/");
-                 })) {
-        findings_.error(where, fmt::format("a variant has no node '{}'", metric.node));
-      }
-    }
   }
 
   void merge(const Pipeline& pipeline, const std::vector<std::size_t>& choices) {
@@ -192,6 +174,7 @@ class Planner {
   }
 
   void finish() {
+    if (any_ && errors_.empty()) shown_.check_pictures();
     SweepPlan& plan = result_.plan;
     plan.merged[whole].file = sweep_.path;
     for (std::size_t e = 0; e < excludes_.size(); ++e)
@@ -210,6 +193,8 @@ class Planner {
   Registry& registry_;
   ReadDocuments documents_;
   Findings findings_;
+  ShownNames shown_{sweep_, findings_};
+  bool any_ = false;  ///< variant could be loaded
   SweepLoad result_;
   std::set<std::string> errors_, warnings_;
   std::vector<std::size_t> excludes_;

@@ -28,6 +28,11 @@ namespace atrium::building {
 /// always those of the building before all corrections, so lines added to the file change no line before them. Lengths
 /// are metres, or have a unit.
 ///
+/// Numbers change with the program and its parameters. So each correction may say where the thing is, in the scan's
+/// frame and unit: `near: [x, y]` or `[x, y, z]` (merge_rooms: two of them). Beside a name or number it is checked: to
+/// within 0.3 m, and nothing of its kind may be more than 5 cm nearer. Instead of `opening`, `room` or `rooms` it means
+/// the nearest one within 0.5 m, where it is clear which that is.
+///
 /// - rename_room: the name must be free.
 /// - merge_rooms: the wall between two rooms goes, where both have a face of it (or where they touch), with its doors
 ///   and windows; what of a face has none behind it stays. Level floors and ceilings that differ by less than 2 cm take
@@ -57,10 +62,10 @@ namespace atrium::building {
 /// it; new ones are inferred. Confidences stay.
 ///
 /// Errors, with file, line and column, and what would be right: no YAML, unknown or missing keys, wrong values; a room,
-/// wall, face or opening that is not there; an opening that leaves its wall or overlaps another one; the thickness of a
-/// wall whose two faces are known, or one that reaches into another room; a wall moved so far that another has no width
-/// left, or into another room; what would not be one closed room. Then nothing is corrected. No random numbers. Cost:
-/// seconds for 100 rooms.
+/// wall, face or opening that is not there, or not at the place that `near` says; an opening that leaves its wall or
+/// overlaps another one; the thickness of a wall whose two faces are known, or one that reaches into another room; a
+/// wall moved so far that another has no width left, or into another room; what would not be one closed room. Then
+/// nothing is corrected. No random numbers. Cost: seconds for 100 rooms.
 struct Correct {
   static constexpr std::string_view type = "building.correct";
   static constexpr std::string_view summary = "Applies corrections by hand, from a file, to a building.";

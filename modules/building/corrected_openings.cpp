@@ -28,19 +28,19 @@ std::string size_text(const OpeningBox& box) {
 }
 
 /// The face of an opening in the room that the correction names; it must, where there are two and the sides matter.
-bool side_of(CorrectionDraft& draft, const Correction& correction, const BuildingOpening& opening) {
+bool side_of(CorrectionDraft& draft, const Correction& correction, std::int32_t index) {
+  const BuildingOpening& opening = draft.opening(index);
+  const std::string name = draft.opening_name(index);
   const bool sided = correction.has("distance") || correction.has("by");
   if (correction.has("room")) {
-    const std::int32_t room = draft.room_of(correction);
+    const std::int32_t room = draft.room_named(correction, "room", correction.text("room"));
     if (room == opening.room_a && opening.face_a >= 0) return true;
     if (room == opening.room_b && opening.face_b >= 0) return false;
-    correction.fail("room", fmt::format("{} is in no wall of '{}'", correction.text("opening"), draft.room(room).name));
+    correction.fail("room", fmt::format("{} is in no wall of '{}'", name, draft.room(room).name));
   }
   if (sided && opening.face_a >= 0 && opening.face_b >= 0)
-    correction.fail(
-        "opening",
-        fmt::format("{} is seen from two sides, and left and right depend on the side", correction.text("opening")),
-        "say with `room` from where its wall is seen");
+    correction.fail("opening", fmt::format("{} is seen from two sides, and left and right depend on the side", name),
+                    "say with `room` from where its wall is seen");
   return opening.face_a >= 0;
 }
 
@@ -71,10 +71,10 @@ void add_opening(CorrectionDraft& draft, const Correction& correction) {
 void change_opening(CorrectionDraft& draft, const Correction& correction) {
   const std::int32_t index = draft.opening_of(correction);
   const BuildingOpening before = draft.opening(index);
-  const bool first = side_of(draft, correction, before);
+  const bool first = side_of(draft, correction, index);
   const std::int32_t face = first ? before.face_a : before.face_b;
   if (before.kind == "slab" || face < 0 || draft.face(face).surface != SurfaceClass::wall)
-    correction.fail("opening", fmt::format("{} is in no wall", correction.text("opening")), "it can be dropped only");
+    correction.fail("opening", fmt::format("{} is in no wall", draft.opening_name(index)), "it can be dropped only");
   const OpeningFitting fitting(draft, correction, face, index);
   OpeningBox box = fitting.view().box(first ? before.outline_a : before.outline_b);
   const double width = correction.number_or("width", box.width()),
@@ -113,9 +113,10 @@ void change_opening(CorrectionDraft& draft, const Correction& correction) {
 
 void drop_opening(CorrectionDraft& draft, const Correction& correction) {
   const std::int32_t index = draft.opening_of(correction);
-  mark_opening(draft, draft.opening(index), correction.text("opening") + " dropped");
+  const std::string told = draft.opening_name(index) + " dropped";
+  mark_opening(draft, draft.opening(index), told);
   for (const auto face : {draft.opening(index).face_a, draft.opening(index).face_b})
-    if (face >= 0) draft.mark_face(face, correction.text("opening") + " dropped");
+    if (face >= 0) draft.mark_face(face, told);
   draft.drop_opening(index);
 }
 

@@ -193,12 +193,12 @@ void rename_room(CorrectionDraft& draft, const Correction& correction) {
 }
 
 void merge_rooms(CorrectionDraft& draft, const Correction& correction) {
-  const auto& names = correction.at("rooms").texts;
-  const std::int32_t a = draft.room_named(correction, "rooms", names[0]),
-                     b = draft.room_named(correction, "rooms", names[1]);
-  if (a == b) correction.fail("rooms", fmt::format("both are '{}'", names[0]), "two rooms become one");
+  const auto both = draft.rooms_of(correction);
+  const std::int32_t a = both[0], b = both[1];
+  if (a == b) correction.fail("rooms", fmt::format("both are '{}'", draft.room(a).name), "two rooms become one");
   if (draft.room(a).storey != draft.room(b).storey)
-    correction.fail("rooms", fmt::format("'{}' and '{}' are on different storeys", names[0], names[1]),
+    correction.fail("rooms",
+                    fmt::format("'{}' and '{}' are on different storeys", draft.room(a).name, draft.room(b).name),
                     "rooms of one storey");
   const Overlap before = overlap_of(draft.building, {a, b});
   align_levels(draft, correction, a, b, SurfaceClass::floor);

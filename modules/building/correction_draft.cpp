@@ -74,7 +74,25 @@ std::int32_t CorrectionDraft::room_named(const Correction& correction, std::stri
 }
 
 std::int32_t CorrectionDraft::room_of(const Correction& correction) const {
-  return room_named(correction, "room", correction.text("room"));
+  if (!correction.has("room")) return room_at(correction, {"near"});
+  const std::int32_t room = room_named(correction, "room", correction.text("room"));
+  check_room_place(correction, {correction.has("at") ? "at" : "near"}, room);
+  return room;
+}
+
+std::vector<std::int32_t> CorrectionDraft::rooms_of(const Correction& correction) const {
+  std::vector<std::int32_t> rooms;
+  rooms.reserve(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const PlaceKey near{"near", i};
+    if (!correction.has("rooms")) {
+      rooms.push_back(room_at(correction, near));
+      continue;
+    }
+    rooms.push_back(room_named(correction, "rooms", correction.at("rooms").texts[i]));
+    check_room_place(correction, near, rooms.back());
+  }
+  return rooms;
 }
 
 std::string CorrectionDraft::face_name(std::int32_t face) const {
@@ -107,6 +125,7 @@ std::int32_t CorrectionDraft::numbered_face(const Correction& correction, std::i
   if (building.faces[static_cast<std::size_t>(face)].room != room)
     correction.fail("face", fmt::format("face {} is none of '{}'", number, name),
                     "numbers are those of building.json before all corrections; " + walls_of(room));
+  check_face_place(correction, static_cast<std::size_t>(number), fmt::format("face {}", number));
   return face;
 }
 
@@ -125,9 +144,12 @@ std::int32_t CorrectionDraft::face_by_wall(const Correction& correction, std::in
     correction.fail("wall", fmt::format("there is no '{}'", correction.text("wall")),
                     fmt::format("walls.csv lists wall 1 to wall {}", count));
   std::vector<std::int32_t> faces;
+  std::size_t before = 0;
   for (const auto f : elements_->walls[number - 1].faces) {
     const std::int32_t now = faces_now_[static_cast<std::size_t>(f)];
-    if (now >= 0 && building.faces[static_cast<std::size_t>(now)].room == room) faces.push_back(now);
+    if (now < 0 || building.faces[static_cast<std::size_t>(now)].room != room) continue;
+    faces.push_back(now);
+    before = static_cast<std::size_t>(f);
   }
   const std::string& name = building.rooms[static_cast<std::size_t>(room)].name;
   if (faces.empty())
@@ -136,6 +158,7 @@ std::int32_t CorrectionDraft::face_by_wall(const Correction& correction, std::in
   if (faces.size() > 1)
     correction.fail("wall", fmt::format("'{}' is on both sides of wall {}", name, number),
                     fmt::format("give `face`: {} or {}", face_name(faces[0]), face_name(faces[1])));
+  check_face_place(correction, before, fmt::format("wall {}", number));
   return faces.front();
 }
 
@@ -189,6 +212,13 @@ std::int32_t CorrectionDraft::face_of(const Correction& correction, std::int32_t
 }
 
 std::int32_t CorrectionDraft::opening_of(const Correction& correction) const {
+  if (!correction.has("opening")) {
+    const std::int32_t index = opening_at(correction), now = openings_now_[static_cast<std::size_t>(index)];
+    if (now < 0)
+      correction.fail("near", fmt::format("'{}' is no more: a correction before this one took it away",
+                                          opening_names_[static_cast<std::size_t>(index)]));
+    return now;
+  }
   const std::string& name = correction.text("opening");
   const auto found = std::find(opening_names_.begin(), opening_names_.end(), name);
   if (found == opening_names_.end()) {
@@ -196,14 +226,20 @@ std::int32_t CorrectionDraft::opening_of(const Correction& correction) const {
     correction.fail("opening", fmt::format("there is no '{}'", name),
                     !hint.empty() ? hint : "as named in doors.csv and windows.csv: " + join_words(opening_names_, 20));
   }
-  const std::int32_t now = openings_now_[static_cast<std::size_t>(found - opening_names_.begin())];
+  const auto index = static_cast<std::size_t>(found - opening_names_.begin());
+  if (correction.has("near")) check_opening_place(correction, index);
+  const std::int32_t now = openings_now_[index];
   if (now < 0)
     correction.fail("opening", fmt::format("'{}' is no more: a correction before this one took it away", name));
   return now;
 }
 
 Eigen::Vector3d CorrectionDraft::place(const Correction& correction, std::string_view key, double height) const {
-  const auto& numbers = correction.at(key).numbers;
+  return place_at(correction, key, correction.at(key).numbers, height);
+}
+
+Eigen::Vector3d CorrectionDraft::place_at(const Correction& correction, std::string_view key,
+                                          const std::vector<double>& numbers, double height) const {
   const auto turned = [&](double x, double y, double z) -> Eigen::Vector3d {
     return transform_.rotation * Eigen::Vector3d(x, y, z) + transform_.translation - building.origin;
   };

@@ -6,6 +6,7 @@
 
 #include "modules/building/corrections_file.hpp"
 #include "modules/building/elements.hpp"
+#include "modules/building/place_distance.hpp"
 #include "modules/building/room_shell.hpp"
 #include "modules/types/building.hpp"
 
@@ -24,9 +25,12 @@ class CorrectionDraft {
   BuildingFace& face(std::int32_t index) { return building.faces[static_cast<std::size_t>(index)]; }
   BuildingOpening& opening(std::int32_t index) { return building.openings[static_cast<std::size_t>(index)]; }
 
-  /// What a correction names. All throw its Error where there is no such thing, with what there is.
+  /// What a correction names. All throw its Error where there is no such thing, with what there is; so they do where
+  /// the thing is not at the place that `near` says, and where `near` stands alone and means none or several.
   std::int32_t room_named(const Correction& correction, std::string_view key, const std::string& name) const;
   std::int32_t room_of(const Correction& correction) const;
+  /// The rooms that `rooms` and `near` say.
+  std::vector<std::int32_t> rooms_of(const Correction& correction) const;
   /// The room's face by `wall`, `face` or `at`.
   std::int32_t face_of(const Correction& correction, std::int32_t room);
   /// The room's face by `face` alone.
@@ -62,6 +66,24 @@ class CorrectionDraft {
                                     std::vector<NewRoom> rooms);
 
  private:
+  /// A key that holds a place, or one of each of several things.
+  struct PlaceKey {
+    std::string_view name;
+    std::size_t thing = 0;
+  };
+  Eigen::Vector3d place_at(const Correction& correction, std::string_view key, const std::vector<double>& numbers,
+                           double height) const;
+  NearPlace near_place(const Correction& correction, const PlaceKey& key, double height) const;
+  // Of the original, whatever the corrections before this one did.
+  void check_opening_place(const Correction& correction, std::size_t named) const;
+  void check_face_place(const Correction& correction, std::size_t named, const std::string& called) const;
+  std::int32_t opening_at(const Correction& correction) const;
+  // Of the rooms that there are, or of the original.
+  void check_room_place(const Correction& correction, const PlaceKey& key, std::int32_t index) const;
+  bool is_at(const Building& of, const Correction& correction, const PlaceKey& key, std::int32_t index) const;
+  std::int32_t room_at(const Correction& correction, const PlaceKey& key) const;
+  std::int32_t original_room(std::int32_t index) const;  ///< -1: none has its name
+
   std::int32_t face_by_wall(const Correction& correction, std::int32_t room);
   std::int32_t face_by_place(const Correction& correction, std::int32_t room) const;
   std::int32_t append(const Correction& correction, NewRoom room, std::vector<std::vector<std::int32_t>>& sources);

@@ -80,7 +80,8 @@ class CorrectionsReader {
              suggestion(entry.key, words_of(rules, [](const auto& r) { return std::string(r.name); }), "corrections"));
     if (!entry.value.is_mapping())
       refuse(at(entry.value.place), fmt::format("'{}' needs its keys", entry.key),
-             fmt::format("as in `- {}: {{{}: …}}`", entry.key, rule->required.front()));
+             fmt::format("as in `- {}: {{{}: …}}`", entry.key,
+                         rule->named_by.empty() ? rule->required.front() : rule->named_by.front()));
     Correction result;
     result.name = entry.key;
     result.place = at(entry.place);
@@ -93,6 +94,10 @@ class CorrectionsReader {
     for (const auto key : rule.required)
       if (!correction.has(key))
         correction.fail({}, fmt::format("'{}' of '{}' is missing", key, rule.name), format_help);
+    if (!rule.named_by.empty() &&
+        std::none_of(rule.named_by.begin(), rule.named_by.end(), [&](auto key) { return correction.has(key); }))
+      correction.fail({}, fmt::format("'{}' does not say what is meant", rule.name),
+                      "give one of " + join_words(as_words(rule.named_by)));
     const auto given = [&](const std::vector<std::string_view>& keys) {
       return std::count_if(keys.begin(), keys.end(), [&](std::string_view key) { return correction.has(key); });
     };
@@ -102,6 +107,9 @@ class CorrectionsReader {
     if (!rule.at_least_one.empty() && given(rule.at_least_one) == 0)
       correction.fail({}, fmt::format("'{}' changes nothing", rule.name),
                       "give one of " + join_words(as_words(rule.at_least_one)));
+    if (correction.has("near") && correction.has("at"))
+      correction.fail("near", "'near' and 'at' both say where the wall is",
+                      "'at' stands alone; 'near' stands beside 'wall' or 'face', and checks it");
   }
 
   CorrectionValue value(const CorrectionRule& rule, const YamlNode::Entry& entry) const {
@@ -113,31 +121,54 @@ class CorrectionsReader {
              suggestion(entry.key, known, fmt::format("keys of {}", rule.name)));
     CorrectionValue result;
     result.place = at(entry.value.place);
-    read(key_called(entry.key), entry.value, result);
+    const CorrectionKey& key = key_called(entry.key);
+    if (key.kind == Kind::near)
+      result.places = places(key, entry.value, rule.things);
+    else
+      read(key, entry.value, result);
+    return result;
+  }
+
+  static bool is_plain_list(const YamlNode& node) {
+    return node.is_sequence() &&
+           std::all_of(node.items.begin(), node.items.end(), [](const auto& item) { return item.is_scalar(); });
+  }
+
+  [[noreturn]] void refuse_kind(const CorrectionKey& key, const YamlNode& node, const std::string& right) const {
+    refuse(at(node.place),
+           fmt::format("'{}' {}", key.name, node.is_null() ? "has no value" : "has a value of the wrong kind"), right);
+  }
+
+  std::vector<double> place(const CorrectionKey& key, const YamlNode& node) const {
+    if (!is_plain_list(node) || node.items.size() < 2 || node.items.size() > 3)
+      refuse_kind(key, node, "a place of the scan, in its unit: [x, y], or [x, y, z]");
+    std::vector<double> numbers;
+    numbers.reserve(node.items.size());
+    for (const auto& item : node.items) numbers.push_back(number(key, item, unitless));
+    return numbers;
+  }
+
+  std::vector<std::vector<double>> places(const CorrectionKey& key, const YamlNode& node, std::size_t count) const {
+    if (count == 1) return {place(key, node)};
+    if (!node.is_sequence() || node.items.size() != count || is_plain_list(node))
+      refuse_kind(key, node, fmt::format("{} places, one of each room: [[x, y], [x, y]]", count));
+    std::vector<std::vector<double>> result;
+    result.reserve(count);
+    for (const auto& item : node.items) result.push_back(place(key, item));
     return result;
   }
 
   void read(const CorrectionKey& key, const YamlNode& node, CorrectionValue& result) const {
-    const auto wrong = [&](const std::string& right) {
-      refuse(at(node.place),
-             fmt::format("'{}' {}", key.name, node.is_null() ? "has no value" : "has a value of the wrong kind"),
-             right);
-    };
+    const auto wrong = [&](const std::string& right) { refuse_kind(key, node, right); };
     const auto list = [&] { return words_of(node.items, [](const YamlNode& item) { return item.text; }); };
-    const bool plain_list =
-        std::all_of(node.items.begin(), node.items.end(), [](const auto& i) { return i.is_scalar(); });
     switch (key.kind) {
       case Kind::texts:
-        if (!node.is_sequence() || !plain_list || node.items.size() != 2) wrong("two names, as in [room 1, room 2]");
+        if (!is_plain_list(node) || node.items.size() != 2) wrong("two names, as in [room 1, room 2]");
         result.texts = list();
         for (const auto& text : result.texts)
           if (text.empty()) wrong("two names, none of them empty");
         return;
-      case Kind::plan_place:
-        if (!node.is_sequence() || !plain_list || node.items.size() < 2 || node.items.size() > 3)
-          wrong("a place of the scan, in its unit: [x, y], or [x, y, z]");
-        for (const auto& item : node.items) result.numbers.push_back(number(key, item, unitless));
-        return;
+      case Kind::plan_place: result.numbers = place(key, node); return;
       default: break;
     }
     if (!node.is_scalar() || node.text.empty()) wrong(key.kind == Kind::length ? "a length, as in 12 cm" : "one value");
@@ -209,6 +240,7 @@ const std::vector<CorrectionKey>& correction_keys() {
                                                {"from", Kind::plan_place},
                                                {"to", Kind::plan_place},
                                                {"at", Kind::plan_place},
+                                               {"near", Kind::near},
                                                {"wall", Kind::text},
                                                {"face", Kind::whole, 0, 1e9},
                                                {"opening", Kind::text},
@@ -227,17 +259,27 @@ const std::vector<CorrectionKey>& correction_keys() {
 
 const std::vector<CorrectionRule>& correction_rules() {
   static const std::vector<CorrectionRule> rules{
-      {"rename_room", {"room", "name"}, {}, {}, {}},
-      {"merge_rooms", {"rooms"}, {"name"}, {}, {}},
-      {"split_room", {"room", "from", "to", "names"}, {"thickness"}, {}, {}},
-      {"add_opening", {"room", "kind", "distance", "width", "height"}, {"corner", "sill"}, {"wall", "face", "at"}, {}},
-      {"change_opening", {"opening"}, {"room", "corner"}, {}, {"kind", "distance", "by", "width", "height", "sill"}},
-      {"drop_opening", {"opening"}, {}, {}, {}},
-      {"move_wall", {"room", "by"}, {"both"}, {"wall", "face", "at"}, {}},
-      {"set_thickness", {"room", "thickness"}, {}, {"wall", "face", "at"}, {}},
-      {"drop_face", {"room"}, {}, {"wall", "face", "at"}, {}},
-      {"set_ceiling", {"room"}, {"face"}, {"height", "by"}, {}},
-      {"set_floor", {"room"}, {"face"}, {"level", "by"}, {}}};
+      {"rename_room", {"name"}, {"room", "near"}, {}, {}, {"room", "near"}},
+      {"merge_rooms", {}, {"rooms", "near", "name"}, {}, {}, {"rooms", "near"}, 2},
+      {"split_room", {"from", "to", "names"}, {"room", "near", "thickness"}, {}, {}, {"room", "near"}},
+      {"add_opening",
+       {"room", "kind", "distance", "width", "height"},
+       {"near", "corner", "sill"},
+       {"wall", "face", "at"},
+       {},
+       {}},
+      {"change_opening",
+       {},
+       {"opening", "near", "room", "corner"},
+       {},
+       {"kind", "distance", "by", "width", "height", "sill"},
+       {"opening", "near"}},
+      {"drop_opening", {}, {"opening", "near"}, {}, {}, {"opening", "near"}},
+      {"move_wall", {"room", "by"}, {"near", "both"}, {"wall", "face", "at"}, {}, {}},
+      {"set_thickness", {"room", "thickness"}, {"near"}, {"wall", "face", "at"}, {}, {}},
+      {"drop_face", {"room"}, {"near"}, {"wall", "face", "at"}, {}, {}},
+      {"set_ceiling", {}, {"room", "near", "face"}, {"height", "by"}, {}, {"room", "near"}},
+      {"set_floor", {}, {"room", "near", "face"}, {"level", "by"}, {}, {"room", "near"}}};
   return rules;
 }
 

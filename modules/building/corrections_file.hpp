@@ -16,7 +16,7 @@ struct CorrectionPlace {
 /// Throws Error "FILE:LINE:COLUMN: problem".
 [[noreturn]] void refuse(const CorrectionPlace& place, const std::string& problem, const std::string& help = {});
 
-enum class CorrectionKeyKind { text, texts, length, whole, plan_place, yes_or_no, opening_kind, corner };
+enum class CorrectionKeyKind { text, texts, length, whole, plan_place, near, yes_or_no, opening_kind, corner };
 
 /// What a key may hold, wherever it may stand.
 struct CorrectionKey {
@@ -30,6 +30,8 @@ struct CorrectionRule {
   std::vector<std::string_view> required, optional;
   std::vector<std::string_view> one_of;        ///< exactly one of these is given
   std::vector<std::string_view> at_least_one;  ///< of these
+  std::vector<std::string_view> named_by;      ///< at least one of these optional keys is given
+  std::size_t things = 1;                      ///< how many places `near` has: as many as things are named
 };
 const std::vector<CorrectionKey>& correction_keys();
 const std::vector<CorrectionRule>& correction_rules();
@@ -37,11 +39,12 @@ const std::vector<CorrectionRule>& correction_rules();
 /// A key's value: which member holds it follows from its kind.
 struct CorrectionValue {
   CorrectionPlace place;
-  std::string text;                ///< text, opening_kind, corner
-  std::vector<std::string> texts;  ///< texts
-  double number = 0;               ///< length (metres), whole
-  std::vector<double> numbers;     ///< plan_place: two or three, in the scan's unit and frame
-  bool yes = false;                ///< yes_or_no
+  std::string text;                         ///< text, opening_kind, corner
+  std::vector<std::string> texts;           ///< texts
+  double number = 0;                        ///< length (metres), whole
+  std::vector<double> numbers;              ///< plan_place: two or three, in the scan's unit and frame
+  std::vector<std::vector<double>> places;  ///< near: of each thing, two or three
+  bool yes = false;                         ///< yes_or_no
 };
 
 class Correction {

@@ -65,7 +65,7 @@ void merge(std::vector<Edge>& edges) {
   edges = std::move(merged);
 }
 
-View view_from(Side side, const PlanStorey& storey) {
+View view_from(Side side, const PlanStorey& storey, bool inferred = true) {
   View view;
   const auto face = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     add_face(view, seen_from(side, a), seen_from(side, b));
@@ -78,6 +78,7 @@ View view_from(Side side, const PlanStorey& storey) {
     if (opening.thickness > 0) face(gap[2], gap[3]);
   }
   for (const auto& wall : storey.walls) {
+    if (wall.inferred && !inferred) continue;
     if (wall.outline.empty()) {
       face(wall.from, wall.to);
     } else {
@@ -89,6 +90,18 @@ View view_from(Side side, const PlanStorey& storey) {
   merge(view.along);
   std::erase_if(view.across, [](const Edge& edge) { return edge.far - edge.near < shortest; });
   return view;
+}
+
+// Where faces across the side were seen, and the ends of doors and windows, which always were.
+std::vector<double> seen_stops(Side side, const PlanStorey& storey) {
+  std::vector<double> stops;
+  for (const auto& edge : view_from(side, storey, false).across) stops.push_back(edge.at);
+  for (const auto& opening : storey.openings)
+    if (opening.kind != "slab") {
+      stops.push_back(seen_from(side, opening.from).x());
+      stops.push_back(seen_from(side, opening.to).x());
+    }
+  return stops;
 }
 
 std::vector<double> distinct(std::vector<double> stops) {
@@ -156,6 +169,11 @@ struct Measure {
   double mm;
   Units units;
   bool plain;
+  std::vector<double> seen;  // stops that are not inferred
+
+  bool is_seen(double stop) const {
+    return std::any_of(seen.begin(), seen.end(), [&](double other) { return std::abs(other - stop) <= same_stop; });
+  }
 };
 
 // Texts stand above the line where they fit between their stops, else in the nearest free row outside of it.
@@ -169,7 +187,9 @@ void add_labels(DimensionChain& chain, const Measure& measure) {
   for (const bool wide : {true, false})
     for (std::size_t i = 1; i < chain.stops.size(); ++i) {
       const double a = chain.stops[i - 1], b = chain.stops[i];
-      const std::string text = dimension_text(b - a, measure.units, measure.plain);
+      const bool inferred = !measure.is_seen(a) || !measure.is_seen(b);
+      const std::string length = dimension_text(b - a, measure.units, measure.plain);
+      const std::string text = inferred ? "(" + length + ")" : length;
       const double half = 0.5 * text_width(text, digits * mm), middle = 0.5 * (a + b);
       if ((2 * half + 2 * gap <= b - a) != wide) continue;
       Box box{middle - half, middle + half, wide ? 0 : 1};
@@ -184,7 +204,7 @@ void add_labels(DimensionChain& chain, const Measure& measure) {
       const double aside = box.row == 0 ? upwards * above : chain.outwards() * outside;
       if (box.row > 0) chain.depth = std::max(chain.depth, (outside + digits) * mm);
       chain.labels.push_back(
-          {chain.at(middle, chain.line + aside * mm), chain.upright(), digits * mm, text, a, b, box.row > 0});
+          {chain.at(middle, chain.line + aside * mm), chain.upright(), digits * mm, text, a, b, box.row > 0, inferred});
     }
 }
 
@@ -218,7 +238,7 @@ double text_width(const std::string& text, double height) {
 }
 
 std::vector<DimensionChain> dimensions_of(const PlanStorey& storey, double mm, Units units, bool plain) {
-  const Measure measure{mm, units, plain};
+  Measure measure{mm, units, plain, {}};
   const Bounds2 box = bounds(storey), walls = wall_bounds(storey);
   std::vector<DimensionChain> chains;
   if (walls.empty()) return chains;
@@ -228,6 +248,7 @@ std::vector<DimensionChain> dimensions_of(const PlanStorey& storey, double mm, U
   const auto stack = [&](Side side, const std::vector<double>& openings,
                          std::initializer_list<std::vector<double>> rows) {
     double offset = first_line * mm;
+    measure.seen = seen_stops(side, storey);
     const auto add_row = [&](const std::vector<double>& stops) {
       if (stops.size() < 2) return;
       chains.push_back(chain_of(side, box, stops, offset, measure));

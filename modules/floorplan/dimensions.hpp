@@ -15,6 +15,7 @@ struct Label {
   std::string text;
   double from = 0, to = 0;  ///< the stops that it stands between
   bool aside = false;       ///< not above the line, for want of room
+  bool inferred = false;    ///< one of its stops is on inferred walls only: its text is in parentheses
 };
 
 enum class Side { bottom, left, top, right };
@@ -40,7 +41,7 @@ struct DimensionChain {
 /// The dimensions of a storey whose walls are parallel to the axes: on each side a chain of the doors and windows of
 /// the facades that look there, one of the wall faces that can be seen from there (top and right only where they differ
 /// from bottom and left), and outside of them the whole length. `mm` is how many metres of the plan are a millimetre of
-/// paper; `plain` is as of dimension_text().
+/// paper; `plain` is as of dimension_text(). What ends at a wall that nobody has seen is in parentheses.
 std::vector<DimensionChain> dimensions_of(const PlanStorey& storey, double mm, Units units = Units::metres,
                                           bool plain = false);
 

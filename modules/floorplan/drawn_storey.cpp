@@ -112,19 +112,13 @@ void draw_corrections(SvgCanvas& canvas, const Pen& pen, const PlanStorey& store
   canvas.begin_group("class=\"corrected\"");
   for (const auto& wall : storey.walls)
     if (wall.corrected) draw_correction_mark(canvas, pen.at(0.5 * (wall.from + wall.to)));
-  for (const auto& opening : storey.openings) {
-    if (!opening.corrected) continue;
-    Eigen::Vector2d middle = 0.5 * (opening.from + opening.to);
-    if (opening.kind == "slab") {
-      middle.setZero();
-      for (const auto& p : opening.outline) middle += p / static_cast<double>(opening.outline.size());
-    }
-    draw_correction_mark(canvas, pen.at(middle));
-  }
+  for (const auto& opening : storey.openings)
+    if (opening.corrected) draw_correction_mark(canvas, pen.at(mark_place(opening)));
   canvas.end_group();
 }
 
-void draw_dimensions(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey) {
+bool draw_dimensions(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey) {
+  bool inferred = false;
   const double mm = pen.mm();
   for (const auto& chain : dimensions_of(storey, mm, pen.units())) {
     canvas.begin_group("fill=\"none\" stroke=\"#444\" stroke-width=\"0.18\"");
@@ -144,9 +138,11 @@ void draw_dimensions(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey
       const Eigen::Vector2d down =
           label.upwards ? Eigen::Vector2d(0.5 * label.height, 0) : Eigen::Vector2d(0, -0.5 * label.height);
       canvas.text(pen.at(label.middle + down), label.height / mm * font, label.text, {}, label.upwards ? -90 : 0);
+      inferred = inferred || label.inferred;
     }
     canvas.end_group();
   }
+  return inferred;
 }
 
 void draw_caption(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey, const Caption& caption) {
@@ -167,6 +163,13 @@ void draw_caption(SvgCanvas& canvas, const Pen& pen, const PlanStorey& storey, c
 
 }  // namespace
 
+Eigen::Vector2d mark_place(const PlanOpening& opening) {
+  if (opening.kind != "slab") return 0.5 * (opening.from + opening.to);
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const auto& p : opening.outline) middle += p / static_cast<double>(opening.outline.size());
+  return middle;
+}
+
 bool has_corrections(const PlanStorey& storey) {
   const auto any = [](const auto& all) {
     return std::any_of(all.begin(), all.end(), [](const auto& item) { return item.corrected; });
@@ -181,7 +184,7 @@ void draw_correction_mark(SvgCanvas& canvas, const Eigen::Vector2d& middle) {
                  "fill=\"#d6006c\" stroke=\"#fff\" stroke-width=\"0.25\"");
 }
 
-void draw_storey(SvgCanvas& canvas, const Sheet& sheet, std::size_t index, const PlanStorey& storey, bool dimensions) {
+bool draw_storey(SvgCanvas& canvas, const Sheet& sheet, std::size_t index, const PlanStorey& storey, bool dimensions) {
   const Pen pen(canvas, sheet, index);
   canvas.begin_group(fmt::format("id=\"storey-{}\"", storey.index));
   draw_areas(canvas, pen, storey);
@@ -189,9 +192,10 @@ void draw_storey(SvgCanvas& canvas, const Sheet& sheet, std::size_t index, const
   draw_openings(canvas, pen, storey);
   draw_corrections(canvas, pen, storey);
   draw_room_labels(canvas, pen, storey);
-  if (dimensions) draw_dimensions(canvas, pen, storey);
+  const bool inferred = dimensions && draw_dimensions(canvas, pen, storey);
   draw_caption(canvas, pen, storey, sheet.captions[index]);
   canvas.end_group();
+  return inferred;
 }
 
 }  // namespace atrium::floorplan

@@ -104,7 +104,7 @@ void DxfDrawing::text(const std::string& layer, const Eigen::Vector2d& middle, d
 }
 
 void DxfDrawing::dimension(const std::string& layer, const Dimension& dimension) {
-  const auto& [from, to, line_from, line_to, middle, shown, angle, height, moved] = dimension;
+  const auto& [from, to, line_from, line_to, middle, shown, angle, height, moved, inferred] = dimension;
   const double mm = frame_.mm / unit_;
   block_.emplace();
   block_->name = fmt::format("*D{}", frame_.blocks.size() + 1);
@@ -125,6 +125,7 @@ void DxfDrawing::dimension(const std::string& layer, const Dimension& dimension)
   out().point(10, placed(line_to), 0);
   out().point(11, placed(middle), 0);
   out().integer(70, rotated | own_block | (moved ? text_placed : 0));
+  if (inferred) out().text(1, "(<>)");
   out().integer(71, middle_centre);
   out().real(42, unit_ * (line_to - line_from).norm());
   out().text(3, dxf_dimension_style);

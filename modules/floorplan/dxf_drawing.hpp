@@ -33,9 +33,10 @@ class DxfDrawing {
     Eigen::Vector2d line_from, line_to;  ///< the same on the dimension line
     Eigen::Vector2d middle;              ///< of the text
     std::string text;
-    double angle = 0;    ///< radians: of line_from → line_to, and of the text
-    double height = 0;   ///< of the text
-    bool moved = false;  ///< the text stands where a program would not put it by itself
+    double angle = 0;       ///< radians: of line_from → line_to, and of the text
+    double height = 0;      ///< of the text
+    bool moved = false;     ///< the text stands where a program would not put it by itself
+    bool inferred = false;  ///< programs that measure it anew put it in parentheses, too
   };
   void dimension(const std::string& layer, const Dimension& dimension);
   /// A line of text at the file's beginning, for those who read the file.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "graph/api/error.hpp"
@@ -28,6 +29,22 @@ std::string note_of(const FloorPlan& plan, double turn) {
 
 }  // namespace
 
+std::string accuracy_text(const Metrics* metrics) {
+  const auto value = [&](std::string_view name) {
+    if (metrics != nullptr)
+      for (const auto& metric : metrics->values)
+        if (metric.name == name) return metric.value;
+    return std::numeric_limits<double>::quiet_NaN();
+  };
+  const double median = value("accuracy.all.median"), p95 = value("accuracy.all.p95");
+  if (!std::isfinite(median) || !std::isfinite(p95)) return {};
+  int band = 10;
+  for (const double limit : {0.05, 0.015, 0.005, 0.001})  // metres: of LOA20 to LOA50, USIBD 2016
+    if (p95 <= limit) band += 10;
+  return fmt::format("scan to model: median {:+.1f} mm, 95 % within {:.1f} mm (LOA{})", 1000 * median, 1000 * p95,
+                     band);
+}
+
 DrawnPlan drawn_plan(const FloorPlan& plan, std::int32_t storey, Axes axes) {
   DrawnPlan drawn{{}, axes == Axes::walls ? wall_turn(plan) : 0};
   for (const auto& s : plan.storeys)
@@ -38,14 +55,15 @@ DrawnPlan drawn_plan(const FloorPlan& plan, std::int32_t storey, Axes axes) {
   return drawn;
 }
 
-std::string svg_sheet(const FloorPlan& plan, const DrawnPlan& drawn, const Sheet& sheet, const std::string& title,
-                      bool dimensions, const std::string& remark) {
+std::string svg_sheet(const FloorPlan& plan, const DrawnPlan& drawn, const Sheet& sheet, const SheetNotes& notes) {
   const auto& storeys = drawn.storeys;
-  TitleBlock block{title, note_of(plan, drawn.turn) + remark, 0, storeys.size(), 0, false, -drawn.turn};
-  SvgCanvas canvas(sheet.size.x(), sheet.size.y(), title);
+  TitleBlock block{notes.title, note_of(plan, drawn.turn) + notes.remark, 0, storeys.size()};
+  block.north = -drawn.turn;
+  block.accuracy = notes.accuracy;
+  SvgCanvas canvas(sheet.size.x(), sheet.size.y(), notes.title);
   canvas.raw(hatch);
   for (std::size_t i = 0; i < storeys.size(); ++i) {
-    draw_storey(canvas, sheet, i, storeys[i], dimensions);
+    block.inferred = draw_storey(canvas, sheet, i, storeys[i], notes.dimensions) || block.inferred;
     block.rooms += storeys[i].rooms.size();
     block.corrected = block.corrected || has_corrections(storeys[i]);
     for (const auto& room : storeys[i].rooms) block.area += room.polygon.area();

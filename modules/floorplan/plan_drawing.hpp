@@ -1,6 +1,7 @@
 #pragma once
 #include "graph/api/node.hpp"
 #include "modules/floorplan/sheet.hpp"
+#include "modules/types/metrics.hpp"
 
 namespace atrium::floorplan {
 
@@ -46,6 +47,10 @@ struct PlanParams {
   }
 };
 
+/// "scan to model: median +3.1 mm, 95 % within 12.4 mm (LOA30)" of what building.accuracy says, and the band of USIBD's
+/// Level of Accuracy that the 95 % are in; empty where that is not known.
+std::string accuracy_text(const Metrics* metrics);
+
 /// The plan's storeys that are drawn, as they lie on paper.
 struct DrawnPlan {
   std::vector<PlanStorey> storeys;
@@ -54,8 +59,15 @@ struct DrawnPlan {
 /// `storey`: the one to draw; -1: all. Throws Error where the plan has no such storey.
 DrawnPlan drawn_plan(const FloorPlan& plan, std::int32_t storey, Axes axes);
 
-/// A sheet with these storeys, an SVG file; without storeys it says so. `remark` stands behind the note on its frame.
-std::string svg_sheet(const FloorPlan& plan, const DrawnPlan& drawn, const Sheet& sheet, const std::string& title,
-                      bool dimensions, const std::string& remark = {});
+/// What stands on a sheet beside its storeys.
+struct SheetNotes {
+  std::string title;
+  std::string accuracy;  ///< accuracy_text(); empty: not known
+  std::string remark;    ///< behind the note on the plan's frame
+  bool dimensions = true;
+};
+
+/// A sheet with these storeys, an SVG file; without storeys it says so.
+std::string svg_sheet(const FloorPlan& plan, const DrawnPlan& drawn, const Sheet& sheet, const SheetNotes& notes);
 
 }  // namespace atrium::floorplan

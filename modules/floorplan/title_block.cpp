@@ -68,7 +68,8 @@ void draw_title(SvgCanvas& canvas, const Sheet& sheet, const TitleBlock& block) 
   const double width = right - 90 - (left + 5) - 3;
   fit({left + 5, top + 8.5}, fitted(block.title, width, 5, 3, true), "font-weight=\"bold\"");
   const std::string holds = fmt::format("{} \u00B7 {} \u00B7 {}", counted(block.storeys, "storey"),
-                                        counted(block.rooms, "room"), area_text(block.area, sheet.units));
+                                        counted(block.rooms, "room"), area_text(block.area, sheet.units)) +
+                            (block.accuracy.empty() ? std::string() : " \u00B7 " + block.accuracy);
   fit({left + 5, top + 14.5}, fitted(holds, width, 2.8, 1.7), {});
   double legend = 0;  // what it takes of the line
   if (block.corrected) {
@@ -76,6 +77,11 @@ void draw_title(SvgCanvas& canvas, const Sheet& sheet, const TitleBlock& block) 
     draw_correction_mark(canvas, {left + 6.1, top + 18.7});
     canvas.text({left + 8.5, top + 19.5}, 2.4, text, "fill=\"#555\"");
     legend = 8.5 + font_width(text, 2.4, false);
+  }
+  if (block.inferred) {
+    const std::string text = "(1.00) ends at a wall that was not seen";
+    canvas.text({left + 5 + legend, top + 19.5}, 2.4, text, "fill=\"#555\"");
+    legend += font_width(text, 2.4, false) + 4;
   }
   fit({left + 5 + legend, top + 19.5}, fitted(block.note, width - legend, 2.4, 1.5), "fill=\"#555\"");
   const std::string scale = fmt::format("1:{}", sheet.scale),

@@ -9,6 +9,7 @@
 #include "modules/floorplan/dimensions.hpp"
 #include "modules/floorplan/door_leaf.hpp"
 #include "modules/floorplan/drawn_openings.hpp"
+#include "modules/floorplan/drawn_storey.hpp"
 #include "modules/floorplan/dxf_drawing.hpp"
 #include "modules/floorplan/room_label.hpp"
 #include "modules/types/crs_name.hpp"
@@ -21,6 +22,8 @@ const std::vector<DxfLayer> layers{{"A-WALL", 7, 50},      {"A-WALL-CNTR", 1, 13
                                    {"A-DOOR", 30, 25},     {"A-GLAZ", 5, 25},      {"A-FLOR-OVHD", 8, 18},
                                    {"A-AREA-IDEN", 2, 18}, {"A-ANNO-DIMS", 8, 18}, {"A-WALL-INFR", 6, 18}};
 constexpr const char* note_layer = "A-ANNO-NOTE";
+/// Revisions: the mark of what was corrected by hand. Only where something was.
+const DxfLayer revision_layer{"A-ANNO-REVS", 1, 25};
 
 class StoreyDrawing {
  public:
@@ -79,14 +82,38 @@ class StoreyDrawing {
     for (const auto& chain : dimensions_of(turned(storey, turn), mm_, units_, true)) {
       const double foot = chain.from_building - chain.outwards() * dxf_extension_gap * mm_;
       for (const auto& label : chain.labels)
-        drawing_.dimension(
-            layer, {back * chain.at(label.from, foot), back * chain.at(label.to, foot),
-                    back * chain.at(label.from, chain.line), back * chain.at(label.to, chain.line), back * label.middle,
-                    label.text, turn + (label.upwards ? 0.5 * std::numbers::pi : 0), label.height, label.aside});
+        drawing_.dimension(layer, {back * chain.at(label.from, foot), back * chain.at(label.to, foot),
+                                   back * chain.at(label.from, chain.line), back * chain.at(label.to, chain.line),
+                                   back * label.middle, label.text, turn + (label.upwards ? 0.5 * std::numbers::pi : 0),
+                                   label.height, label.aside, label.inferred});
+    }
+  }
+
+  /// Diamonds as on the sheets: at the middles of walls and openings, over the names of rooms.
+  void corrections(const PlanStorey& storey, double turn) {
+    for (const auto& wall : storey.walls)
+      if (wall.corrected) mark(0.5 * (wall.from + wall.to), turn);
+    for (const auto& opening : storey.openings)
+      if (opening.corrected) mark(mark_place(opening), turn);
+    for (const auto& room : storey.rooms) {
+      if (!room.corrected) continue;
+      const LabelPlace place = label_place(room.polygon, Eigen::Vector2d(20, 15) * mm_, storey.walls);
+      const Eigen::Vector2d middle = place.scale > 0 ? place.middle : room.polygon.outline.front();
+      mark(middle + Eigen::Rotation2Dd(turn) * Eigen::Vector2d(0, 10 * mm_), turn);
     }
   }
 
  private:
+  void mark(const Eigen::Vector2d& middle, double turn) {
+    const Eigen::Rotation2Dd back(turn);
+    const double size = correction_mark_size * mm_;
+    PlanRing ring;
+    for (const auto& corner :
+         {Eigen::Vector2d(size, 0), Eigen::Vector2d(0, size), Eigen::Vector2d(-size, 0), Eigen::Vector2d(0, -size)})
+      ring.push_back(middle + back * corner);
+    drawing_.closed_polyline(revision_layer.name + suffix_, ring);
+  }
+
   void polygons(const std::string& layer, const std::vector<PlanPolygon>& polygons) {
     for (const auto& polygon : polygons) {
       drawing_.closed_polyline(layer + suffix_, polygon.outline);
@@ -159,6 +186,9 @@ void WriteDxf::run(const In& in, const Params& params, Context& context) {
     storeys.push_back(storey);
     const auto more = named(suffix_of(storey));
     all.insert(all.end(), more.begin(), more.end());
+    if (!has_corrections(storey)) continue;
+    all.push_back(revision_layer);
+    all.back().name += suffix_of(storey);
   }
   if (params.storey >= 0 && storeys.empty())
     throw Error(fmt::format("the plan has no storey {}", params.storey),
@@ -184,6 +214,7 @@ void WriteDxf::run(const In& in, const Params& params, Context& context) {
     entities.openings(storey);
     entities.labels(storey, turn);
     if (params.dimensions) entities.dimensions(storey, turn);
+    entities.corrections(storey, turn);
   }
   if (const Bounds2 drawn = drawing.extents(); !crs.empty() && !drawn.empty())
     drawing.text(note_layer, {0.5 * (drawn.low.x() + drawn.high.x()), drawn.low.y() - 6 * mm}, 2.5 * mm,

@@ -24,6 +24,7 @@ namespace atrium::floorplan {
 /// | A-FLOR-OVHD | holes in floors (crossed) and in the ceiling above |
 /// | A-AREA, A-AREA-IDEN | outlines of rooms; their names, areas and heights |
 /// | A-ANNO-DIMS | dimensions outside of the building: DIMENSION entities of the style ATRIUM |
+/// | A-ANNO-REVS | diamonds on what was corrected by hand, if anything was: at its middle, or over a room's name |
 /// | A-ANNO-NOTE | which coordinate reference system the coordinates are in, if that is known |
 ///
 /// Polygons are closed LWPOLYLINEs, holes have one of their own. If the plan has several storeys, each has its own

@@ -76,15 +76,17 @@ void add_openings(Features& features, const PlanStorey& storey) {
 
 void add_storey(Features& features, const PlanStorey& storey, double origin_z) {
   const Json elevation = storey.floor_known ? Json(rounded(origin_z + storey.elevation, 1e4)) : Json();
-  for (const auto& room : storey.rooms)
-    features.add({{"class", "room"},
-                  {"storey", storey.index},
-                  {"name", room.name},
-                  {"area_m2", rounded(room.polygon.area(), 1e4)},
-                  {"height_m", known(room.height)},
-                  {"elevation_m", elevation},
-                  {"confidence", room.confidence >= 0 ? Json(rounded(room.confidence, 1e2)) : Json()}},
-                 room.polygon);
+  for (const auto& room : storey.rooms) {
+    Json properties{{"class", "room"},
+                    {"storey", storey.index},
+                    {"name", room.name},
+                    {"area_m2", rounded(room.polygon.area(), 1e4)},
+                    {"height_m", known(room.height)},
+                    {"elevation_m", elevation},
+                    {"confidence", room.confidence >= 0 ? Json(rounded(room.confidence, 1e2)) : Json()}};
+    if (room.corrected) properties["corrected"] = true;
+    features.add(properties, room.polygon);
+  }
   for (const auto& wall : storey.walls) {
     Json properties{{"class", "wall"},
                     {"storey", storey.index},

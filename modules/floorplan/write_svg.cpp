@@ -10,7 +10,9 @@ void WriteSvg::run(const In& in, const Params& params, Context& context) {
   const DrawnPlan drawn = drawn_plan(plan, params.storey, params.axes);
   if (drawn.storeys.empty()) context.warn("the plan is empty: " + params.path.path + " shows nothing");
   const Sheet sheet = arranged(drawn.storeys, origin_height(plan), params.paper, params.scale, params.units);
-  write_output(context, params.path.path, svg_sheet(plan, drawn, sheet, params.title, params.dimensions));
+  write_output(context, params.path.path,
+               svg_sheet(plan, drawn, sheet,
+                         {params.title, accuracy_text(in.accuracy ? &*in.accuracy : nullptr), {}, params.dimensions}));
 }
 
 }  // namespace atrium::floorplan

@@ -14,8 +14,9 @@ namespace atrium::floorplan {
 /// +y (north, if that is a grid's northing), and a title block with the scale, the number of rooms and their area; no
 /// date, so that the same plan gives the same bytes. An elevation or a height that is not known is said to be unknown.
 /// What was corrected by hand (building.correct) has a small diamond, which the title block explains: walls and
-/// openings at their middles, rooms of which a floor or a ceiling was over their names. A title that is too long for
-/// its place is set smaller, or cut off with "…".
+/// openings at their middles, rooms of which a floor or a ceiling was over their names. Dimensions that end at a wall
+/// of which nobody has seen a face are in parentheses. With `accuracy` the title block says how far the scan is from
+/// the model. A title that is too long for its place is set smaller, or cut off with "…".
 ///
 /// All storeys stand on one sheet, the lowest at the left and at the bottom, at the greatest usual scale that A4 or A3
 /// has room for (1:50, 1:100, 1:200, 1:500, …) unless `scale` and `paper` say otherwise; `storey` draws one alone. Many
@@ -31,9 +32,12 @@ struct WriteSvg {
   static constexpr std::string_view summary = "Draws a floor plan to scale, with dimensions and labels, as SVG.";
   struct In {
     Input<FloorPlan> plan;
+    OptionalInput<Metrics> accuracy;
   };
   using Params = PlanParams<PlanFile::svg>;
-  static constexpr auto inputs = std::tuple{port<&In::plan>("What to draw.")};
+  static constexpr auto inputs =
+      std::tuple{port<&In::plan>("What to draw."),
+                 port<&In::accuracy>("What building.accuracy says: it stands in the title block.")};
   static constexpr auto params = Params::table();
   static void run(const In& in, const Params& params, Context& context);
 };

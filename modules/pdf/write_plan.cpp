@@ -4,10 +4,11 @@
 
 #include <algorithm>
 
+#include "graph/api/helper_process.hpp"
 #include "graph/api/text.hpp"
 #include "graph/api/write_output.hpp"
 #include "modules/floorplan/caption.hpp"
-#include "modules/pdf/pdf_pages.hpp"
+#include "modules/pdf/drawing.hpp"
 
 namespace atrium::pdf {
 namespace {
@@ -61,11 +62,14 @@ std::vector<Sheet> sheets_of(const std::vector<DrawnPlan>& pages, double origin_
   return sheets;
 }
 
-void warn_of_fonts(const DrawnPlan& drawn, const std::string& title, const Context& context) {
+std::vector<std::string> texts_of(const DrawnPlan& drawn, const std::string& title) {
   std::vector<std::string> texts{title};
   for (const auto& storey : drawn.storeys)
     for (const auto& room : storey.rooms) texts.push_back(room.name);
-  const auto lacking = texts_without_font(texts);
+  return texts;
+}
+
+void warn_of_fonts(const std::vector<std::string>& lacking, const Context& context) {
   if (lacking.empty()) return;
   context.warn(
       fmt::format("no installed font has all characters of '{}'{}: boxes stand for them (Debian's "
@@ -73,21 +77,54 @@ void warn_of_fonts(const DrawnPlan& drawn, const std::string& title, const Conte
                   lacking.front(), lacking.size() > 1 ? " and " + counted(lacking.size() - 1, "more text") : ""));
 }
 
+/// In a process of its own: the libraries that draw end a program where memory or threads lack.
+DrawingReply drawn_by_helper(const DrawingRequest& request, const Context& context) {
+  static const char anchor = 0;
+  const std::string name = "atrium-pdf-draw";
+  const std::filesystem::path file = folder_of_library(&anchor) / name;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    throw Error(fmt::format("the program {} that draws is lacking (looked for {})", name, file.string()),
+                "build and install the plugin and its program together");
+  HelperProcess helper;
+  helper.name = name;
+  helper.file = file;
+  constexpr double least_seconds = 120, seconds_a_page = 60;  // a page takes a tenth of a second
+  helper.seconds = least_seconds + seconds_a_page * static_cast<double>(request.pages.size());
+  helper.at_time_limit = "the fonts of this machine may be on a disk that does not answer: fc-list shows whether";
+  const HelperReply bytes = run_helper_process(helper, to_bytes(request), context);
+  DrawingReply reply;
+  try {
+    reply = reply_from(bytes.bytes);
+  } catch (const std::exception& error) {
+    throw Error(fmt::format("{} gave no reply that can be read: {}", name, error.what()),
+                "build and install the plugin and its program together");
+  }
+  if (!reply.problem.empty()) throw Error(reply.problem, reply.help);
+  return reply;
+}
+
 }  // namespace
 
 void WritePlan::run(const In& in, const Params& params, Context& context) {
   const FloorPlan& plan = *in.plan;
   const DrawnPlan drawn = floorplan::drawn_plan(plan, params.storey, params.axes);
+  const std::string accuracy = floorplan::accuracy_text(in.accuracy ? &*in.accuracy : nullptr);
   if (drawn.storeys.empty()) context.warn("the plan is empty: " + params.path.path + " shows nothing");
-  warn_of_fonts(drawn, params.title, context);
   const std::vector<DrawnPlan> pages = pages_of(drawn);
   const std::vector<Sheet> sheets = sheets_of(pages, floorplan::origin_height(plan), params);
-  PdfPages pdf(params.title);
+  DrawingRequest request{params.title, texts_of(drawn, params.title), {}};
+  request.pages.reserve(pages.size());
   for (std::size_t i = 0; i < pages.size(); ++i)
-    pdf.add(floorplan::svg_sheet(plan, pages[i], sheets[i], params.title, params.dimensions,
-                                 pages.size() > 1 ? fmt::format("; page {} of {}", i + 1, pages.size()) : ""),
-            sheets[i].size);
-  write_output(context, params.path.path, std::move(pdf).finish());
+    request.pages.push_back(
+        {floorplan::svg_sheet(
+             plan, pages[i], sheets[i],
+             {params.title, accuracy, pages.size() > 1 ? fmt::format("; page {} of {}", i + 1, pages.size()) : "",
+              params.dimensions}),
+         sheets[i].size.x(), sheets[i].size.y()});
+  const DrawingReply reply = drawn_by_helper(request, context);
+  warn_of_fonts(reply.lacking, context);
+  write_output(context, params.path.path, reply.file);
 }
 
 }  // namespace atrium::pdf

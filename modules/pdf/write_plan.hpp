@@ -17,15 +17,20 @@ namespace atrium::pdf {
 /// gives the same bytes on a machine with the same fonts.
 ///
 /// A plan without storeys gives a page that says so, and a warning. Errors: no font at all; no such storey; a plan that
-/// does not fit on the given paper, and which would do; a folder that cannot be written. Then no file is there.
+/// does not fit on the given paper, and which would do; a folder that cannot be written. Then no file is there. A
+/// program of its own draws, atrium-pdf-draw beside the plugin: its libraries end a program where memory or threads
+/// lack, which then is an error of this node.
 struct WritePlan {
   static constexpr std::string_view type = "pdf.write_plan";
   static constexpr std::string_view summary = "Draws a floor plan to scale as PDF, a page per storey.";
   struct In {
     Input<FloorPlan> plan;
+    OptionalInput<Metrics> accuracy;
   };
   using Params = floorplan::PlanParams<floorplan::PlanFile::pdf>;
-  static constexpr auto inputs = std::tuple{port<&In::plan>("What to draw.")};
+  static constexpr auto inputs =
+      std::tuple{port<&In::plan>("What to draw."),
+                 port<&In::accuracy>("What building.accuracy says: it stands in the title block.")};
   static constexpr auto params = Params::table();
   static void run(const In& in, const Params& params, Context& context);
 };

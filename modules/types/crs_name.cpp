@@ -89,6 +89,8 @@ std::string crs_name(const std::string& text) {
   return epsg_name(code);
 }
 
+void check_crs_name(const std::string& text) { crs_name(text); }
+
 int epsg_code(const std::string& name) {
   const std::string beginning = "EPSG:";
   return name.starts_with(beginning) && is_code(name.substr(beginning.size()))

@@ -15,6 +15,8 @@ namespace atrium {
 /// that it begins with. Empty for an empty text. Throws Error, which says how a name is written, for all else, and for
 /// systems that are known to count in degrees: coordinates here are metres.
 std::string crs_name(const std::string& text);
+/// Throws crs_name()'s Error: for parameters, before anything runs.
+void check_crs_name(const std::string& text);
 
 /// The number in "EPSG:25832"; 0 for a name without one.
 int epsg_code(const std::string& name);

@@ -41,13 +41,15 @@ TEST_F(Quickstart, SaysWhatItFoundAndWhereItIs) {
   std::vector<std::string> lines;
   std::istringstream text(result.out);
   for (std::string line; std::getline(text, line);) lines.push_back(line);
-  ASSERT_GE(lines.size(), 3U) << result.out;
+  ASSERT_GE(lines.size(), 5U) << result.out;
   EXPECT_TRUE(lines[1].starts_with("1 closed rooms of ")) << lines[1];
   EXPECT_EQ(lines[1].find("  "), std::string::npos) << "a number is missing: " << lines[1];
+  EXPECT_TRUE(std::regex_match(lines[2], std::regex("Confidence (1|0[.][0-9]+) of 1; .*(warns of|warn of) .*[.]")))
+      << lines[2];
   // The page to look at is named first, where it could be built.
   const fs::path page = fs::path(ATRIUM_PROGRAM).parent_path().parent_path() / "share/atrium/view.html";
   EXPECT_EQ(fs::exists(checkout / "runs/scan-scan/view.html"), fs::exists(page));
-  EXPECT_TRUE(lines[3].starts_with(fs::exists(page) ? "  view.html " : "  building.json ")) << lines[3];
+  EXPECT_TRUE(lines[4].starts_with(fs::exists(page) ? "  view.html " : "  building.json ")) << lines[4];
   for (const char* file : {"building.json", "building.ifc", "rooms.csv", "building.city.json", "floorplan.svg",
                            "floorplan.pdf", "floorplan.dxf", "floorplan.geojson", "shell.ply", "structure.ply",
                            "scene.glb", "scene.ply", "scene_without_ceiling.ply"}) {

@@ -268,13 +268,6 @@ TEST_F(Sweep, IdsStayWhenACheckoutMoves) {
   EXPECT_EQ(in(folder.path()), in(other.path()));
 }
 
-TEST_F(Sweep, AMetricThatNoVariantHasIsAnError) {
-  sweep("metrics: {sum: number.nothing}\n");
-  const auto result = atrium({"run", "s.yaml", "--out", "out", "--quiet"});
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.err.find("no variant has the metric 'sum'"), std::string::npos) << result.err;
-}
-
 TEST_F(Sweep, ForeignFoldersAreRefusedAndKept) {
   sweep("grid: {second.value: [2, 3]}\n");
   fs::create_directories(folder / "mine");

@@ -53,6 +53,11 @@ try {
     return { count: places.length, at: [frame.x + at[0] + 0.5, frame.y + at[1] + 0.5] };
   })()`);
 
+  // The first thing in the page says that the rest is read; it goes when it is there.
+  const source = readFileSync(file, 'utf8');
+  assert.ok(source.indexOf('Loading the run') > source.indexOf('<body>') && source.indexOf('Loading the run') < source.indexOf('<main'));
+  assert.equal(await count('#loading'), 0);
+
   await { flat: checkFlat, corrected: checkCorrected, lacking: checkLacking, time: timeFrames }[kind]();
   assert.deepEqual(page.errors, []);
   assert.deepEqual(page.requests.filter((url) => !url.startsWith('blob:') && !url.startsWith('data:') && !url.startsWith('file:')), []);
@@ -412,6 +417,10 @@ try {
     await press('#save');
     const saved = join(folder, 'corrections.yaml');
     for (let i = 0; i < 200 && !existsSync(saved); ++i) await pause(50);
+    // Numbers change with the program and its parameters: each says where the thing is, too.
+    const lines = readFileSync(saved, 'utf8').split('\n').filter((line) => line.startsWith('  - '));
+    assert.equal(lines.length, all);
+    for (const line of lines) assert.match(line, / near: \[-?\d+(\.\d+)?, -?\d+/, 'a correction without a place');
     renameSync(saved, corrections);
     rmSync(folder, { recursive: true });
     measured.corrections = all;

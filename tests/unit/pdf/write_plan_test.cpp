@@ -11,7 +11,6 @@
 #include <sstream>
 
 #include "modules/floorplan/write_svg.hpp"
-#include "modules/pdf/pdf_pages.hpp"
 #include "tests/support/lacking.hpp"
 #include "tests/unit/floorplan/buildings.hpp"
 
@@ -174,7 +173,8 @@ TEST_F(Pdf, NamesOfAllScriptsAreTextOrSaidToBeLacking) {
   plan.storeys[0].rooms[0].name = "K\u00FCche <&> \u041A\u0443\u0445\u043D\u044F";  // Küche, Кухня
   plan.storeys[0].rooms[1].name = "\U00012000";                                     // a cuneiform sign
   write(plan);
-  if (texts_without_font({"\U00012000"}).empty()) GTEST_SKIP() << "this machine has a font for cuneiform";
+  if (std::system("fc-list :charset=12000 | grep -q .") == 0)  // NOLINT(concurrency-mt-unsafe): one thread
+    GTEST_SKIP() << "this machine has a font for cuneiform";
   ASSERT_EQ(host->warnings.size(), 1U);
   EXPECT_TRUE(has(host->warnings[0], "no installed font has all characters of '\U00012000'")) << host->warnings[0];
   ATRIUM_SKIP_WITHOUT_POPPLER();
@@ -212,8 +212,6 @@ TEST_F(Pdf, WhatDoesNotFitLeavesNoFile) {
   params.paper = floorplan::Paper::a4;
   params.scale = 5;
   EXPECT_THROW(write(floorplan::plan_of(floorplan::two_rooms()), params), Error);
-  PdfPages pages("x");
-  EXPECT_THROW(pages.add("no svg", {297, 210}), Error);
   EXPECT_TRUE(std::filesystem::is_empty(host->folder.path()));
 }
 

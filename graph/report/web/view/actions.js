@@ -1,5 +1,5 @@
 // What can be corrected of a face, a room or an opening: forms that make corrections; see share/doc/corrections.md.
-import { neighbours, placeOn } from './building.js';
+import { meanOf, neighbours, placeIn, placeOn } from './building.js';
 
 export const metres = (v) => `${v.toFixed(v < 10 ? 3 : 2).replace(/0$/, '')} m`;
 const length = (key, label, value, limits = {}) => ({ key, label, value, kind: 'length', least: -100, most: 100, ...limits });
@@ -12,6 +12,17 @@ function one(values, names) {
   return Object.fromEntries(given);
 }
 
+/** A place of the page as a file of corrections says it, in the scan's own frame and unit: numbers of rooms, faces, doors and windows
+    change with the program and its parameters, places do not. With its height where there are storeys. */
+function near(run, place) {
+  const scan = run.frame.back(place).map((v) => Number((v / run.building.unit).toFixed(3)));
+  return run.frame.z[2] > 0.999999 && run.building.storeys.length < 2 ? scan.slice(0, 2) : scan;
+}
+const BEFORE = 0.03; // metres before a face: on its room's side, whatever the rounding
+const nearFace = (run, face, place) => near(run, (place ?? meanOf(face.outline)).map((v, i) => v + BEFORE * face.normal[i]));
+const nearRoom = (run, room) => near(run, placeIn(room));
+const nearOpening = (run, opening) => near(run, meanOf(opening.outline_a.length > 2 ? opening.outline_a : opening.outline_b));
+
 /** Whether part of a wall's face has no other face behind it, as far as walls.csv says. */
 function isOuter(run, face) {
   const walls = run.walls.filter((wall) => wall.faces.includes(face.index));
@@ -22,7 +33,7 @@ export function wallActions(run, face, place) {
   const room = run.building.rooms[face.room]?.name;
   if (room === undefined) return [];
   const at = place ? placeOn(face, place) : { from: 0 };
-  const which = { room, face: face.index };
+  const which = { room, face: face.index, near: nearFace(run, face, place) };
   return [
     ['Move the wall', [length('by', 'outwards by', '', { hint: '3 cm, −0.05' }), { key: 'both', label: 'the whole wall, with its other side', kind: 'check' }],
      (v) => ['move_wall', { ...which, by: v.by, ...(v.both ? { both: true } : {}) }]],
@@ -45,7 +56,7 @@ export function wallActions(run, face, place) {
 export function levelActions(run, face) {
   const room = run.building.rooms[face.room]?.name;
   if (room === undefined) return [];
-  const which = { room, face: face.index };
+  const which = { room, face: face.index, near: nearFace(run, face, placeIn(face)) };
   const by = length('by', 'or upwards by', '', { optional: true, hint: '2 cm' });
   if (face.class === 'ceiling')
     return [['Move this ceiling', [length('height', 'to a height over the floor of', '', { least: 0.05, optional: true }), by],
@@ -58,18 +69,19 @@ export function levelActions(run, face) {
 
 export function roomActions(run, room) {
   const { building } = run;
+  const which = { room: room.name, near: nearRoom(run, room) };
   const beside = neighbours(building, room).filter((other) => other.storey === room.storey);
   const free = (name) => { if (building.rooms.some((r) => r !== room && r.name === name)) throw new Error(`there is a room "${name}" already`); };
   return [
     ['Rename', [{ key: 'name', label: 'name', value: room.name, kind: 'text' }], (v) => {
       free(v.name);
       if (v.name === room.name) throw new Error('that is its name already');
-      return ['rename_room', { room: room.name, name: v.name }];
+      return ['rename_room', { ...which, name: v.name }];
     }],
     ['Set the ceiling\'s height', [length('height', 'over the floor', '', { least: 0.05, optional: true, hint: metres(room.height) }), length('by', 'or upwards by', '', { optional: true })],
-     (v) => ['set_ceiling', { room: room.name, ...one({ height: v.height, by: v.by }, 'a height, or by how much it moves') }]],
+     (v) => ['set_ceiling', { ...which, ...one({ height: v.height, by: v.by }, 'a height, or by how much it moves') }]],
     ['Set the floor\'s level', [length('level', 'over the storey\'s elevation', '', { optional: true, hint: '2 cm' }), length('by', 'or upwards by', '', { optional: true })],
-     (v) => ['set_floor', { room: room.name, ...one({ level: v.level, by: v.by }, 'a level, or by how much it moves') }]],
+     (v) => ['set_floor', { ...which, ...one({ level: v.level, by: v.by }, 'a level, or by how much it moves') }]],
     ['Split along a line', [
       { key: 'from', label: 'from', kind: 'place', hint: 'x, y' }, { key: 'to', label: 'to', kind: 'place', hint: 'x, y' },
       { key: 'left', label: 'name of the part on its left', kind: 'text', value: room.name }, { key: 'right', label: 'name of the other', kind: 'text' },
@@ -79,14 +91,15 @@ export function roomActions(run, room) {
        free(v.left);
        free(v.right);
        if (Math.hypot(...v.from.map((x, i) => x - (v.to[i] ?? 0))) < 0.01) throw new Error('both places are one: the line runs through two of them');
-       return ['split_room', { room: room.name, from: v.from, to: v.to, names: [v.left, v.right], ...(v.thickness ? { thickness: v.thickness } : {}) }];
+       return ['split_room', { ...which, from: v.from, to: v.to, names: [v.left, v.right], ...(v.thickness ? { thickness: v.thickness } : {}) }];
      }],
     beside.length > 0 ? ['Merge with', [{ key: 'other', label: 'room', kind: 'choice', options: beside.map((r) => r.name) }, { key: 'name', label: 'name', value: room.name, kind: 'text' }],
-                         (v) => ['merge_rooms', { rooms: [room.name, v.other], name: v.name }]] : null,
+                         (v) => ['merge_rooms', { rooms: [room.name, v.other], near: [which.near, nearRoom(run, beside.find((r) => r.name === v.other))], name: v.name }]] : null,
   ].filter(Boolean);
 }
 
 export function openingActions(run, opening) {
+  const which = { opening: opening.name, near: nearOpening(run, opening) };
   const sides = [opening.room_a, opening.room_b].filter((r) => r >= 0).map((r) => run.building.rooms[r].name);
   return [
     opening.kind === 'slab' ? null : ['Change', [
@@ -97,14 +110,14 @@ export function openingActions(run, opening) {
       sides.length > 1 ? { key: 'room', label: 'as seen from', kind: 'choice', options: sides } : null].filter(Boolean),
      (v) => {
        if (v.by && v.distance) throw new Error('both say where it is: give one of them');
-       const keys = { opening: opening.name };
+       const keys = { ...which };
        if ((v.by || v.distance) && v.room) keys.room = v.room;
        if (v.kind !== opening.kind) keys.kind = v.kind;
        for (const key of ['width', 'height', 'sill', 'by', 'distance']) if (v[key]) keys[key] = v[key];
        if (v.distance && v.corner === 'right') keys.corner = 'right';
-       if (Object.keys(keys).length < 2) throw new Error('nothing is changed: give one value at least');
+       if (Object.keys(keys).length < 3) throw new Error('nothing is changed: give one value at least');
        return ['change_opening', keys];
      }],
-    ['Drop it', [], () => ['drop_opening', { opening: opening.name }]],
+    ['Drop it', [], () => ['drop_opening', which]],
   ].filter(Boolean);
 }

@@ -63,6 +63,27 @@ export function placeOn(face, place) {
   return { from: dot(right, place) - Math.min(...across), length: Math.max(...across) - Math.min(...across), over: place[2] - Math.min(...face.outline.map((p) => p[2])) };
 }
 
+export const meanOf = (places) => [0, 1, 2].map((i) => places.reduce((sum, p) => sum + p[i], 0) / places.length);
+
+/** A place well inside of a level outline, at its height: the middle of the widest stretch over a line through it. */
+export function placeIn({ outline, holes }) {
+  const ys = outline.map((p) => p[1]);
+  const [low, high] = [Math.min(...ys), Math.max(...ys)];
+  let best = { width: -1, place: meanOf(outline) };
+  for (const share of [0.5, 0.3, 0.7, 0.15, 0.85]) {
+    const y = low + share * (high - low);
+    const crossings = [outline, ...holes].flatMap((ring) => ring.flatMap((a, i) => {
+      const b = ring[(i + 1) % ring.length];
+      return (a[1] > y) === (b[1] > y) ? [] : [a[0] + ((b[0] - a[0]) * (y - a[1])) / (b[1] - a[1])];
+    })).sort((a, b) => a - b);
+    for (let i = 0; i + 1 < crossings.length; i += 2) {
+      const width = crossings[i + 1] - crossings[i];
+      if (width > 1.2 * best.width) best = { width, place: [(crossings[i] + crossings[i + 1]) / 2, y, best.place[2]] };
+    }
+  }
+  return best.place;
+}
+
 /** Rooms on the other side of a room's walls and openings. */
 export function neighbours(building, room) {
   const found = new Set();

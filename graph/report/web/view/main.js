@@ -270,6 +270,7 @@ async function start() {
   stage?.setMode(hasScan && run.mesh ? 'split' : hasScan ? 'scan' : 'model');
   stage?.space.look('corner');
   marks.model = performance.now();
+  document.getElementById('loading')?.remove();
   document.documentElement.dataset.ready = 'model';
   if (hasScan && stage) {
     stage.message.textContent = 'Reading the scan …';
@@ -284,4 +285,4 @@ async function start() {
 }
 const grown = (box) => ({ min: box.min.map((v) => v - 0.6), max: box.max.map((v) => v + 0.6) });
 
-start().catch((error) => { at('notes').replaceChildren(h('p', { class: 'wrong' }, `This page cannot show the run: ${error.message}`)); throw error; });
+start().catch((error) => { document.getElementById('loading')?.remove(); at('notes').replaceChildren(h('p', { class: 'wrong' }, `This page cannot show the run: ${error.message}`)); throw error; });
