@@ -43,8 +43,8 @@ Eigen::Vector3d nearest_axis(const Eigen::Vector3d& direction) {
 double usual(const Eigen::Vector3d& up, bool y_up) {
   const Eigen::Vector3d axis = nearest_axis(up);
   if (angle_between(up, axis) > near_axis) return 0.002;
-  if (axis.z() > 0) return y_up ? 0.36 : 0.90;
-  if (axis.y() > 0) return y_up ? 0.60 : 0.06;
+  if (axis.z() > 0) return y_up ? 0.36 : 0.87;
+  if (axis.y() > 0) return y_up ? 0.60 : 0.09;
   if (axis.y() < 0) return y_up ? 0.006 : 0.015;
   return axis.z() < 0 ? 0.008 : 0.004;
 }
@@ -117,7 +117,9 @@ std::vector<Choice> choices_of(const PlanePrimitives& planes, const std::vector<
   std::vector<Choice> choices;
   for (const auto& c : upright_candidates(points_of(planes), faces, 1.0, context)) {
     const double usually = std::log(usual(c.up, y_up));
-    choices.push_back({c.up, c.evidence, usually, prior * usually + c.evidence.sum(), 0});
+    // The kinds of evidence are not independent of one another (what hides the floor also is furniture and clutter).
+    constexpr double independent = 0.7;
+    choices.push_back({c.up, c.evidence, usually, prior * usually + independent * c.evidence.sum(), 0});
   }
   std::stable_sort(choices.begin(), choices.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
   double sum = 0;
@@ -126,13 +128,28 @@ std::vector<Choice> choices_of(const PlanePrimitives& planes, const std::vector<
   return choices;
 }
 
+/// "+z is up with 98.7 %; for it (+) and against it (-): usual direction +0.0, clear heights +2.1, …": what speaks for
+/// a direction, in powers of e by which it gets likelier; what says nothing is left out.
 std::string told(const Choice& c) {
   const auto& e = c.evidence;
-  return fmt::format(
-      "{} p {:.3f}: usual {:+.1f} heights {:+.1f} structure {:+.1f} cover {:+.1f} levels {:+.1f} furniture {:+.1f} "
-      "doors {:+.1f} clutter {:+.1f} floor {:+.1f}; height {:.2f} m",
-      name_of(c.up), c.probability, c.prior, e.heights, e.structure, e.cover, e.few_levels, e.furniture, e.doors,
-      e.clutter, e.floor, e.room_height);
+  std::string evidence;
+  const auto add = [&](const char* name, double points) {
+    constexpr double shown = 0.05;
+    if (std::abs(points) >= shown) evidence += fmt::format("{}{} {:+.1f}", evidence.empty() ? "" : ", ", name, points);
+  };
+  add("usual direction", c.prior);
+  add("clear heights", e.heights);
+  add("level and upright surfaces", e.structure);
+  add("level surfaces over the whole plan", e.cover);
+  add("few levels", e.few_levels);
+  add("furniture", e.furniture);
+  add("doors", e.doors);
+  add("clutter on the floor", e.clutter);
+  add("what is on no plane lies low", e.rough);
+  add("the scanned end is the floor", e.floor);
+  add("what one end alone can tell", e.bound);
+  return fmt::format("{} is up with {:.1f} %{}{}", name_of(c.up), 100 * c.probability,
+                     evidence.empty() ? "" : "; points for it (+) and against it (-): ", evidence);
 }
 
 /// First the nearest axis onto +z, by a quarter turn or a half one, then what is left by the least rotation.
@@ -179,7 +196,7 @@ std::pair<Eigen::Vector3d, double> found_up(const PlanePrimitives& planes, const
                                             bool y_up, double prior, const Context& context) {
   const auto choices = choices_of(planes, faces, y_up, prior, context);
   report(choices, context);
-  constexpr std::size_t most = 4;
+  constexpr std::size_t most = 6;
   for (std::size_t i = 0; i < std::min(most, choices.size()); ++i) context.info(told(choices[i]));
   double likely = 0;
   for (const auto& c : choices)

@@ -8,10 +8,11 @@ namespace atrium::align {
 ///
 /// Which way: both directions of every axis that many surfaces are level or upright to are candidates. Each is given
 /// the sum of logarithms of likelihood ratios: are the clear heights and widths those of rooms, do free level surfaces
-/// lie at the height of seats, tables and worktops, do walls begin at the height of a door, does clutter stand on it,
-/// is what is level wide and in few heights, does nothing lie askew. To these comes what files usually are: z up within
-/// 15 degrees (90 %), else y (6 %), −y as cameras have it (1.5 %), −z, x and −x; with habit: y, y 60 % and z 36 %; any
-/// other direction 0.2 %. The largest sum wins. On which side surfaces were seen is not used: it need not be known yet.
+/// lie at the height of seats, tables and worktops, do walls begin at the height of a door, does what is on no plane
+/// lie low, does clutter stand on it, is what is level wide and in few heights, does nothing lie askew. The sum counts
+/// 0.7, since these depend on one another. To these comes what files usually are: z up within 15 degrees (87 %), else y
+/// (9 %), −y as cameras have it (1.5 %), −z, x and −x; with habit: y, y 60 % and z 36 %; any other direction 0.2 %. The
+/// largest sum wins. On which side surfaces were seen is not used: it need not be known yet.
 ///
 /// Tilt: an M-estimate over level planes and walls by area (refined_vertical): slopes and leaning walls have no say.
 ///

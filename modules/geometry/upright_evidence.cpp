@@ -3,192 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 
+#include "modules/geometry/upright_things.hpp"
 #include "modules/geometry/upright_view.hpp"
 
 namespace atrium {
 namespace {
-
-using ViewItem = UprightView::Item;
-using Kind = UprightView::Kind;
-
-double normal_density(double x, double mean, double deviation) {
-  const double z = (x - mean) / deviation;
-  return std::exp(-0.5 * z * z) / (deviation * std::sqrt(2 * std::numbers::pi));
-}
-
-/// ln(p / q) of a height at which something free and level is found above a floor: furniture against anything.
-double furniture_weight(double h) {
-  constexpr double low = 0.15, high = 2.4;
-  const double p = 0.25 * normal_density(h, 0.45, 0.05) + 0.30 * normal_density(h, 0.74, 0.04) +
-                   0.10 * normal_density(h, 0.90, 0.04) + 0.20 * (h < 1.2 ? 1 / (1.2 - low) : 0) + 0.15 / (high - low);
-  return std::clamp(std::log(p * (high - low)), -1.2, 1.5);
-}
-
-/// ln(p / q) of a height at which a wall begins: a door's head or a wall behind furniture against anything.
-double door_weight(double h) {
-  constexpr double low = 0.4, high = 3.0;
-  const double p = 0.55 * normal_density(h, 2.05, 0.06) + 0.10 * normal_density(h, 0.75, 0.08) + 0.35 / (high - low);
-  return std::clamp(std::log(p * (high - low)), -1.0, 1.5);
-}
-
-/// Independent sightings: one per square metre of plan and step of 10 cm, if large enough.
-class Sightings {
- public:
-  void add(std::uint32_t block, double height, double amount) {
-    seen_.push_back({std::uint64_t{block} << 16 | static_cast<std::uint64_t>(std::clamp(height * 10, 0.0, 60000.0)),
-                     height, amount});
-  }
-  /// Calls sighting(mean height) for each with at least this amount.
-  template <class Sighting>
-  void each(double least, const Sighting& sighting) {
-    std::stable_sort(seen_.begin(), seen_.end(), [](const One& a, const One& b) { return a.key < b.key; });
-    for (std::size_t i = 0; i < seen_.size();) {
-      double amount = 0, sum = 0;
-      const auto key = seen_[i].key;
-      for (; i < seen_.size() && seen_[i].key == key; ++i)
-        amount += seen_[i].amount, sum += seen_[i].amount * seen_[i].height;
-      if (amount >= least) sighting(sum / amount);
-    }
-  }
-
- private:
-  struct One {
-    std::uint64_t key;
-    double height, amount;
-  };
-  std::vector<One> seen_;
-};
-
-/// Adds up the weights of sightings. Those of one height say less and less (a beam or a shelf on all of a wall is one
-/// thing, and so are the tables of a canteen): n of them count as 1 + ln n.
-class Steps {
- public:
-  void add(double height, double weight) {
-    auto& step = steps_[static_cast<int>(height * 10)];
-    step.first += weight;
-    ++step.second;
-  }
-  double sum() const {
-    constexpr double independent = 0.6;
-    double all = 0;
-    for (const auto& [height, step] : steps_)
-      all += independent * step.first / step.second * (1 + std::log(step.second));
-    return all;
-  }
-
- private:
-  std::map<int, std::pair<double, int>> steps_;  // by height in steps of 10 cm: sum of weights, number
-};
-
-/// The items of a column from bottom to top, whichever end is up. Heights grow upwards.
-class Column {
- public:
-  Column(const UprightView& view, std::size_t column, bool upwards)
-      : begin_(view.columns()[column]), size_(view.columns()[column + 1] - begin_), view_(view), upwards_(upwards) {}
-  std::size_t size() const { return size_; }
-  const ViewItem& operator[](std::size_t i) const { return view_.items()[begin_ + (upwards_ ? i : size_ - 1 - i)]; }
-  double height(std::size_t i) const { return upwards_ ? (*this)[i].height : -(*this)[i].height; }
-  /// Height of item i above the floor below it, or −1.
-  double over_floor(std::size_t i) const { return distance(i, upwards_); }
-  double under_ceiling(std::size_t i) const { return distance(i, !upwards_); }
-
- private:
-  double distance(std::size_t i, bool down) const {
-    const auto& item = (*this)[i];
-    const auto* level = down ? view_.below(item.block, item.height) : view_.above(item.block, item.height);
-    return level == nullptr ? -1 : std::abs(static_cast<double>(item.height) - level->height);
-  }
-  std::size_t begin_, size_;
-  const UprightView& view_;
-  bool upwards_;
-};
-
-void add_furniture(const UprightView& view, bool upwards, UprightEvidence& evidence) {
-  Sightings sightings;
-  const double area = view.piece() * view.piece();
-  for (std::size_t c = 0; c + 1 < view.columns().size(); ++c) {
-    const Column column(view, c, upwards);
-    for (std::size_t i = 0; i < column.size(); ++i) {
-      if (column[i].kind != Kind::level || column[i].main) continue;
-      // Free above, but for what is the same surface.
-      std::size_t next = i + 1;
-      const double same = std::max(0.06, 1.5 * view.piece());
-      constexpr double clear = 0.3;
-      while (next < column.size() && column.height(next) < column.height(i) + same) ++next;
-      if (next < column.size() && column.height(next) < column.height(i) + clear) continue;
-      const double h = column.over_floor(i);
-      constexpr double highest = 2.4;
-      if (h > 0 && h < highest) sightings.add(column[i].block, h, area);
-    }
-  }
-  constexpr double least = 0.06;  // square metres
-  Steps steps;
-  sightings.each(least, [&](double h) {
-    steps.add(h, furniture_weight(h));
-    evidence.furniture_seen += furniture_weight(h) > 0 ? 1 : 0;
-  });
-  evidence.furniture = std::clamp(steps.sum(), -2.0, 4.0);
-}
-
-void add_doors(const UprightView& view, bool upwards, UprightEvidence& evidence) {
-  Sightings sightings;
-  const double width = std::max(0.15, 2 * view.piece());
-  if (width > 0.4) return;  // too sparse to see a door
-  for (std::size_t c = 0; c + 1 < view.columns().size(); ++c) {
-    const Column column(view, c, upwards);
-    for (std::size_t i = 0; i < column.size(); ++i) {
-      if (column[i].kind != Kind::wall) continue;
-      const double h = column.over_floor(i);
-      constexpr double low = 0.4, high = 3.0, head = 0.3, slack = 0.15;
-      if (h < low || h > high) break;
-      // Nothing between the floor and here, and the wall goes on above.
-      if (i > 0 && column.height(i - 1) > column.height(i) - h + slack) break;
-      std::size_t wall = 0;
-      for (std::size_t k = i; k < column.size() && column.height(k) < column.height(i) + head; ++k)
-        wall += column[k].kind == Kind::wall ? 1 : 0;
-      if (wall >= 2) sightings.add(column[i].block, h, width);
-      break;
-    }
-  }
-  constexpr double least = 0.3;  // metres of wall
-  Steps steps;
-  sightings.each(least, [&](double h) {
-    steps.add(h, door_weight(h));
-    evidence.doors_seen += door_weight(h) > 0 && h > 1.8 ? 1 : 0;
-  });
-  evidence.doors = std::clamp(steps.sum(), -1.0, 4.0);
-}
-
-/// What is neither wall nor main level, by how near it is to the floor and to the ceiling; and how much lies above a
-/// level and how much below one.
-void add_clutter(const UprightView& view, std::array<UprightEvidence, 2>& evidence) {
-  double low = 0, high = 0, over = 0, under = 0;
-  const double area = view.piece() * view.piece();
-  constexpr double near = 1.0;
-  for (std::size_t c = 0; c + 1 < view.columns().size(); ++c) {
-    const Column column(view, c, true);
-    for (std::size_t i = 0; i < column.size(); ++i) {
-      if (column[i].main) continue;
-      const double floor = column.over_floor(i), ceiling = column.under_ceiling(i);
-      over += floor > 0 ? area : 0;
-      under += ceiling > 0 ? area : 0;
-      if (floor < 0 || ceiling < 0 || column[i].kind == Kind::wall) continue;
-      low += floor < near ? area : 0;
-      high += ceiling < near ? area : 0;
-    }
-  }
-  constexpr double certain = 0.5;  // square metres: what is less says nothing
-  const double clutter = std::clamp(1.2 * std::log((low + certain) / (high + certain)), -2.5, 2.5) / 2;
-  const double all = over + under;
-  const double floor = all > 0 ? 0.5 * std::log((over / all + 0.1) / (under / all + 0.1)) : 0;
-  evidence[0].clutter = clutter;
-  evidence[1].clutter = -clutter;
-  evidence[0].floor = floor;
-  evidence[1].floor = -floor;
-}
 
 /// Distances between main levels that face each other, one a column; rising. None if they lie over each other in few
 /// columns: a table is no ceiling.
@@ -198,13 +19,15 @@ std::vector<double> gaps_of(const UprightView& view) {
   constexpr double least_share = 0.2;
   std::size_t levels = 0;
   for (std::size_t c = 0; c + 1 < view.columns().size(); ++c) {
-    const Column column(view, c, true);
-    double before = 0, widest = 0;
+    double widest = 0;
     bool any = false;
-    for (std::size_t i = 0; i < column.size(); ++i) {
-      if (!column[i].main || column[i].kind != Kind::level) continue;
-      if (any) widest = std::max(widest, column.height(i) - before);
-      before = column.height(i);
+    for (auto i = view.columns()[c]; i < view.columns()[c + 1]; ++i) {
+      const auto& item = view.items()[i];
+      if (!item.main || item.kind != UprightView::Kind::level) continue;
+      const auto* above = view.above(item.block, item.height);
+      const auto* below = view.below(item.block, item.height);
+      if (above != nullptr) widest = std::max(widest, above->height - static_cast<double>(item.height));
+      if (below != nullptr) widest = std::max(widest, static_cast<double>(item.height) - below->height);
       any = true;
     }
     if (widest > least) gaps.push_back(widest);
@@ -251,7 +74,7 @@ double cover_of(const UprightView& view) {
   for (std::size_t c = 0; c + 1 < view.columns().size(); ++c) {
     bool main = false;
     for (auto i = view.columns()[c]; i < view.columns()[c + 1]; ++i)
-      main = main || (view.items()[i].main && view.items()[i].kind == Kind::level);
+      main = main || (view.items()[i].large && view.items()[i].kind == UprightView::Kind::level);
     covered += main ? 1 : 0;
   }
   return view.columns().size() > 1 ? covered / static_cast<double>(view.columns().size() - 1) : 0;
@@ -260,11 +83,7 @@ double cover_of(const UprightView& view) {
 Axis look_along(const SurfacePieces& pieces, const UprightAxis& axis, double scale) {
   Axis result{axis, {}, {}, 0, 1};
   const UprightView view(pieces, axis.direction, scale);
-  for (const bool upwards : {true, false}) {
-    add_furniture(view, upwards, result.ways[upwards ? 0 : 1]);
-    add_doors(view, upwards, result.ways[upwards ? 0 : 1]);
-  }
-  add_clutter(view, result.ways);
+  add_things(view, result.ways);
   const std::vector<double> gaps = gaps_of(view);
   result.fit = fit_of(gaps);
   for (auto& way : result.ways) way.room_height = gaps.empty() ? 0 : gaps[gaps.size() / 2];

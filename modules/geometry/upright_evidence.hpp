@@ -15,12 +15,16 @@ struct UprightEvidence {
   double few_levels = 0;   ///< levels are few
   double furniture = 0;    ///< free level surfaces at the height of seats, tables and worktops above a floor
   double doors = 0;        ///< walls begin at the height of a door (or behind furniture) above a floor
-  double clutter = 0;      ///< more stands on the floor than hangs from the ceiling
+  double clutter = 0;      ///< more that is plane stands on the floor than hangs from the ceiling; slopes are above
+  double rough = 0;        ///< what is on no plane (cushions, plants, things on tables) is low, not high
   double floor = 0;        ///< if only one end was scanned, it is the floor
+  double bound = 0;        ///< takes back what the five before it tell too surely where only one end was scanned
   double room_height = 0;  ///< metres: the median clear height; 0: no two levels face each other
   int furniture_seen = 0;  ///< how many square metres of plan show furniture of a usual height
   int doors_seen = 0;      ///< how many square metres of plan show a door's head at a usual height
-  double sum() const { return heights + structure + cover + few_levels + furniture + doors + clutter + floor; }
+  double sum() const {
+    return heights + structure + cover + few_levels + furniture + doors + clutter + rough + floor + bound;
+  }
 };
 
 /// A direction that may be up, and what speaks for it.

@@ -24,6 +24,8 @@ UprightView::UprightView(const SurfacePieces& pieces, const Eigen::Vector3d& axi
     : piece_(pieces.size * scale) {
   place(pieces, axis, scale);
   find_levels();
+  add_ends();
+  std::sort(levels_.begin(), levels_.end(), [](const Level& a, const Level& b) { return a.height < b.height; });
   mark_levels();
 }
 
@@ -42,6 +44,8 @@ void UprightView::place(const SurfacePieces& pieces, const Eigen::Vector3d& axis
   }
   if (places.empty()) return;
   const std::int64_t wide = static_cast<std::int64_t>((high.y() - low.y()) / cell) + 1;
+  cell_ = cell;
+  wide_ = wide;
   std::vector<std::int64_t> cells(places.size());
   std::vector<std::pair<std::int64_t, std::int64_t>> blocks(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -64,12 +68,14 @@ void UprightView::place(const SurfacePieces& pieces, const Eigen::Vector3d& axis
     const bool plane = !pieces.pieces[i].normal.isZero();
     const auto row = std::min<std::int64_t>(blocks[i].first, block_rows_ - 1);
     const auto column = std::min<std::int64_t>(blocks[i].second, block_columns_ - 1);
-    items_[i] = {static_cast<std::uint32_t>(row * block_columns_ + column), number_of(used, cells[i]),
+    items_[i] = {static_cast<std::uint32_t>(row * block_columns_ + column),
+                 number_of(used, cells[i]),
                  static_cast<float>(places[i].z()),
-                 !plane      ? Kind::other
+                 !plane      ? Kind::rough
                  : c > level ? Kind::level
                  : c < wall  ? Kind::wall
                              : Kind::other,
+                 false,
                  false};
   }
   std::stable_sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) {
@@ -78,6 +84,7 @@ void UprightView::place(const SurfacePieces& pieces, const Eigen::Vector3d& axis
   for (std::uint32_t i = 0; i < items_.size(); ++i)
     if (i == 0 || items_[i].column != items_[i - 1].column) columns_.push_back(i);
   columns_.push_back(static_cast<std::uint32_t>(items_.size()));
+  keys_ = std::move(used);
 }
 
 // NOLINTNEXTLINE(readability-function-size)
@@ -124,11 +131,34 @@ void UprightView::find_levels() {
       sum += static_cast<double>(heights[i]);
       ++count;
     }
-    levels_.push_back({sum / static_cast<double>(count), static_cast<double>(count) * piece_ * piece_, {}});
+    levels_.push_back({sum / static_cast<double>(count), static_cast<double>(count) * piece_ * piece_, false, {}});
     constexpr std::size_t most_levels = 40;
     if (levels_.size() == most_levels) break;
   }
   std::sort(levels_.begin(), levels_.end(), [](const Level& a, const Level& b) { return a.height < b.height; });
+}
+
+/// Furniture hides most of the floor of a small room. Where the scan ends and something level is seen, there is a floor
+/// or a ceiling, however little is seen of it.
+void UprightView::add_ends() {
+  if (levels_.empty()) return;
+  std::vector<float> heights;
+  heights.reserve(items_.size());
+  for (const auto& item : items_) heights.push_back(item.height);
+  constexpr double beyond = 0.005, near = 0.15, least = 0.3, headroom = 1.5;  // share, metres, square metres, metres
+  const auto off = static_cast<std::ptrdiff_t>(beyond * static_cast<double>(heights.size()));
+  for (const bool bottom : {true, false}) {
+    const auto at = bottom ? heights.begin() + off : heights.end() - 1 - off;
+    std::nth_element(heights.begin(), at, heights.end());
+    const auto end = static_cast<double>(*at);
+    const auto is_near = [&](const Level& level) { return std::abs(level.height - end) < headroom; };
+    if (std::any_of(levels_.begin(), levels_.end(), is_near)) continue;
+    double sum = 0, count = 0;
+    for (const auto& item : items_)
+      if (item.kind == Kind::level && std::abs(static_cast<double>(item.height) - end) < near)
+        sum += static_cast<double>(item.height), ++count;
+    if (count * piece_ * piece_ >= least) levels_.push_back({sum / count, count * piece_ * piece_, true, {}});
+  }
 }
 
 void UprightView::mark_levels() {
@@ -137,22 +167,63 @@ void UprightView::mark_levels() {
   for (auto& level : levels_) {
     std::vector<std::uint16_t> count(blocks, 0);
     for (const auto& item : items_)
-      if (item.kind == Kind::level && std::abs(static_cast<double>(item.height) - level.height) < tolerance &&
-          count[item.block] < 60000)
+      if ((item.kind == Kind::level || level.hidden) &&
+          std::abs(static_cast<double>(item.height) - level.height) < tolerance && count[item.block] < 60000)
         ++count[item.block];
     level.blocks.assign(blocks, 0);
     for (std::uint32_t r = 0; r < block_rows_; ++r)
       for (std::uint32_t c = 0; c < block_columns_; ++c) {
-        if (static_cast<double>(count[r * block_columns_ + c]) * piece_ * piece_ < least_area) continue;
+        if (static_cast<double>(count[r * block_columns_ + c]) * piece_ * piece_ <
+            (level.hidden ? least_area / 10 : least_area))
+          continue;
         for (std::uint32_t y = r > 0 ? r - 1 : 0; y <= std::min(r + 1, block_rows_ - 1); ++y)
           for (std::uint32_t x = c > 0 ? c - 1 : 0; x <= std::min(c + 1, block_columns_ - 1); ++x)
             level.blocks[y * block_columns_ + x] = 1;
       }
   }
-  for (auto& item : items_)
-    for (const auto& level : levels_)
-      if (std::abs(static_cast<double>(item.height) - level.height) < tolerance && level.blocks[item.block] != 0)
-        item.main = true;
+  const auto mark = [&](bool Item::*flag) {
+    for (auto& item : items_)
+      for (const auto& level : levels_)
+        if (std::abs(static_cast<double>(item.height) - level.height) < tolerance && level.blocks[item.block] != 0)
+          item.*flag = true;
+  };
+  mark(&Item::large);
+  drop_furniture();
+  mark(&Item::main);
+}
+
+/// In a small room a bed is a main level. What has a larger level so near above or below that nobody can stand between
+/// them is neither floor nor ceiling there.
+void UprightView::drop_furniture() {
+  constexpr double step = 0.3, headroom = 1.5;  // metres
+  const std::vector<Level> all = levels_;
+  const auto is_near = [&](const Level& level, std::uint32_t row, std::uint32_t column) {
+    for (std::uint32_t y = row > 0 ? row - 1 : 0; y <= std::min(row + 1, block_rows_ - 1); ++y)
+      for (std::uint32_t x = column > 0 ? column - 1 : 0; x <= std::min(column + 1, block_columns_ - 1); ++x)
+        if (level.blocks[y * block_columns_ + x] != 0) return true;
+    return false;
+  };
+  for (auto& level : levels_)
+    for (const auto& other : all) {
+      const double apart_by = std::abs(other.height - level.height);
+      if (other.area <= level.area || apart_by <= step || apart_by >= headroom) continue;
+      for (std::uint32_t r = 0; r < block_rows_; ++r)
+        for (std::uint32_t c = 0; c < block_columns_; ++c)
+          if (level.blocks[r * block_columns_ + c] != 0 && is_near(other, r, c))
+            level.blocks[r * block_columns_ + c] = 0;
+    }
+}
+
+std::int64_t UprightView::neighbour(std::uint32_t column, int rows, int columns) const {
+  const std::int64_t at = keys_[column] % wide_ + columns, key = keys_[column] + rows * wide_ + columns;
+  if (at < 0 || at >= wide_) return -1;
+  const auto found = std::lower_bound(keys_.begin(), keys_.end(), key);
+  return found == keys_.end() || *found != key ? -1 : found - keys_.begin();
+}
+
+Eigen::Vector2d UprightView::place_of(std::uint32_t column) const {
+  return cell_ *
+         Eigen::Vector2d(static_cast<double>(keys_[column] / wide_), static_cast<double>(keys_[column] % wide_));
 }
 
 const UprightView::Level* UprightView::below(std::uint32_t block, double height) const {

@@ -80,8 +80,8 @@ std::vector<FacedArea> faces_of(const std::vector<SurfacePiece>& pieces) {
 /// ln of how often files have their up here; see align.gravity, whose table this is.
 double usual_up(const Eigen::Vector3d& up, bool y_up) {
   constexpr double along = 0.9659;  // cosine of 15 degrees
-  if (up.z() > along) return std::log(y_up ? 0.36 : 0.90);
-  if (up.y() > along) return std::log(y_up ? 0.60 : 0.06);
+  if (up.z() > along) return std::log(y_up ? 0.36 : 0.87);
+  if (up.y() > along) return std::log(y_up ? 0.60 : 0.09);
   if (up.cwiseAbs().maxCoeff() > along) return std::log(0.008);
   return std::log(0.002);
 }

@@ -60,10 +60,8 @@ double area_of(const Building& building) {
   return area;
 }
 
-/// Rooms into which no door, passage or hole in a slab leads, where there are others; empty if nobody has looked for
-/// openings and walls.
+/// Rooms into which no door, passage or hole in a slab leads.
 std::vector<std::string> rooms_without_a_way(const Building& building) {
-  if ((building.openings.empty() && building.walls.empty()) || building.rooms.size() < 2) return {};
   std::vector<bool> open(building.rooms.size(), false);
   for (const auto& opening : building.openings) {
     if (opening.kind == "window") continue;
@@ -149,9 +147,10 @@ void judge_doubled(const DoubledWalls& doubled, Building& building) {
 /// Judges the building by its rooms and by what they leave out.
 void judge(const PlanePrimitives& planes, const DoubledWalls& doubled, const Frame& frame, Building& building) {
   building.confidence = mean_confidence(building);
+  // A model on its side is wrong in all: the probability of the axis is a factor.
   constexpr double certain = 0.9;
+  building.confidence *= std::clamp(frame.back.upright, 0.0, 1.0);
   if (const double upright = frame.back.upright; upright < certain) {
-    building.confidence *= ramp(upright, 0.4, certain, 0.5, 1);
     building.doubts.push_back(
         fmt::format("which way is up is not certain ({:.0f} %): align.gravity names the other way", 100 * upright));
   }

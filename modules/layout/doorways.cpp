@@ -45,10 +45,21 @@ std::vector<std::array<std::vector<Piece>, 2>> pieces_of(const StoreyCells& stor
   return result;
 }
 
+/// The edges at each vertex.
+using Meeting = std::vector<std::vector<std::uint32_t>>;
+
+Meeting meeting_edges(const StoreyCells& storey) {
+  Meeting result(storey.vertices.size());
+  for (std::uint32_t e = 0; e < storey.edges.size(); ++e)
+    for (const auto v : {storey.edges[e].from, storey.edges[e].to}) result[v].push_back(e);
+  return result;
+}
+
 /// Walks along one side of a line and closes its gaps.
 class Closing {
  public:
-  Closing(StoreyCells& storey, const std::vector<Piece>& pieces) : storey_(storey), pieces_(pieces) {}
+  Closing(StoreyCells& storey, const Meeting& meeting, const std::vector<Piece>& pieces)
+      : storey_(storey), meeting_(meeting), pieces_(pieces) {}
 
   void run() {
     std::size_t flank = 0;  // the first piece of the wall before the gap
@@ -81,6 +92,7 @@ class Closing {
     const double begin = pieces_[gap].begin, width = pieces_[next].begin - begin;
     if (width > widest) return;
     if (begin - pieces_[flank].begin < least_flank || pieces_[end - 1].end - pieces_[next].begin < least_flank) return;
+    if (has_wall_across(gap) && has_wall_across(next)) return;
     const double top = std::max(edge(gap - 1).*pieces_[gap - 1].top, edge(next).*pieces_[next].top);
     if (width >= door && top > storey_.floor_height + highest_lintel) return;
     for (std::size_t i = gap; i < next; ++i) {
@@ -90,15 +102,54 @@ class Closing {
     }
   }
 
+  /// Whether a wall runs away from where a piece begins: at both ends of a gap these are the walls of a corridor that
+  /// passes between two walls.
+  bool has_wall_across(std::size_t piece) const {
+    const CellEdge& e = edge(piece);
+    const std::int32_t line = e.line;
+    const Eigen::Vector2d& normal = storey_.lines[static_cast<std::size_t>(line)].normal;
+    const Eigen::Vector2d along(-normal.y(), normal.x());
+    const auto end = along.dot(storey_.vertices[e.from]) < along.dot(storey_.vertices[e.to]) ? e.from : e.to;
+    constexpr double across = 0.5, long_enough = 0.6;  // cosine of 60 degrees; metres: more than a jamb
+    for (const auto first : meeting_[end]) {
+      const std::int32_t other = storey_.edges[first].line;
+      if (other < 0 || other == line ||
+          std::abs(storey_.lines[static_cast<std::size_t>(other)].normal.dot(normal)) > across)
+        continue;
+      if (standing_length(end, first) >= long_enough) return true;
+    }
+    return false;
+  }
+
+  /// How far a wall goes on along one line from a vertex, from its first edge on.
+  double standing_length(std::uint32_t vertex, std::uint32_t first) const {
+    constexpr double enough = 1;  // metres
+    double length = 0;
+    for (std::int64_t at = first; at >= 0 && length < enough;) {
+      const CellEdge& e = storey_.edges[static_cast<std::size_t>(at)];
+      if (std::max(e.face_left, e.face_right) < 0.5) break;
+      length += (storey_.vertices[e.to] - storey_.vertices[e.from]).norm();
+      vertex = e.from == vertex ? e.to : e.from;
+      const auto& around = meeting_[vertex];
+      const auto next = std::find_if(around.begin(), around.end(), [&](std::uint32_t k) {
+        return k != static_cast<std::uint32_t>(at) && storey_.edges[k].line == e.line;
+      });
+      at = next == around.end() ? -1 : static_cast<std::int64_t>(*next);
+    }
+    return length;
+  }
+
   StoreyCells& storey_;
+  const Meeting& meeting_;
   const std::vector<Piece>& pieces_;
 };
 
 }  // namespace
 
 void close_doorways(StoreyCells& storey) {
+  const Meeting meeting = meeting_edges(storey);
   for (const auto& sides : pieces_of(storey))
-    for (const auto& pieces : sides) Closing(storey, pieces).run();
+    for (const auto& pieces : sides) Closing(storey, meeting, pieces).run();
 }
 
 }  // namespace atrium::layout

@@ -11,13 +11,13 @@ void measure_enclosure(StoreyCells& storey);
 
 /// The height at which a wall ends at least, metres: what ends below 60 % of a storey's height is furniture. Where no
 /// ceiling was scanned and the scanner saw the lower part of most walls only (a robot's does), 70 % of what it saw of
-/// them. `storey`: StoreyCells or StoreyPlanes.
+/// them, but no less than 1 m: worktops are lower. `storey`: StoreyCells or StoreyPlanes.
 template <class Storey>
 double least_wall_top(const Storey& storey) {
-  constexpr double of_storey = 0.6, of_walls = 0.7;
+  constexpr double of_storey = 0.6, of_walls = 0.7, worktop = 1.0;  // shares; metres
   const double top = of_storey * (storey.ceiling_height - storey.floor_height);
   if (storey.wall_end <= storey.floor_height) return storey.floor_height + top;
-  return storey.floor_height + std::min(top, of_walls * (storey.wall_end - storey.floor_height));
+  return storey.floor_height + std::min(top, std::max(worktop, of_walls * (storey.wall_end - storey.floor_height)));
 }
 
 }  // namespace atrium::layout

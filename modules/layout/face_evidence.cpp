@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "modules/geometry/quantile.hpp"
+#include "modules/layout/closed_leaves.hpp"
 #include "modules/layout/raster.hpp"
 #include "modules/layout/wall_pairs.hpp"
 
@@ -155,7 +156,8 @@ FaceEvidence EvidenceFinder::gather(std::size_t index) const {
   const double noise = noise_levels * noise_of(face);
   evidence.tolerance = std::clamp(noise, params_.tolerance, 2 * params_.tolerance);
   // The reveals of a door in a thin wall lie between its faces: points there are not all on one of them.
-  if (const double thickness = thickness_at(index); thickness < params_.max_thickness)
+  const double thickness = thickness_at(index);
+  if (thickness < params_.max_thickness)
     evidence.tolerance = std::min(evidence.tolerance, std::max(thickness / 3, noise));
   evidence.ways_known = !view.sensors.empty();
   Eigen::AlignedBox2d box;
@@ -166,6 +168,10 @@ FaceEvidence EvidenceFinder::gather(std::size_t index) const {
     for (int x = 0; x < mask.width(); ++x)
       if (face_contains(building_, face, evidence.frame.to_space(mask.centre(x, y)), 0)) mask.at(x, y) = Square::hidden;
   collect_points(face, evidence);
+  // What lies on the wall's other face was seen from there: where furniture hides this one, it is no leaf.
+  constexpr double other_face = 0.03;
+  if (thickness < params_.max_thickness)
+    std::erase_if(evidence.near, [&](const Eigen::Vector3f& p) { return -p.z() > thickness - other_face; });
   const double least = least_width(face, params_);
   evidence.spacing = mask.cover(evidence.on, 0.5 * least);
   if (!is_seen(mask)) return {};
@@ -182,18 +188,22 @@ void EvidenceFinder::collect_points(const BuildingFace& face, FaceEvidence& evid
   const double step = face.surface == SurfaceClass::wall ? 0.2 : 0;  // metres that a floor outside may lie lower
   Eigen::AlignedBox3d around;
   for (const auto v : face.outline) {
-    around.extend(building_.vertices[v] + evidence.tolerance * face.plane.normal);
+    around.extend(building_.vertices[v] + std::max(evidence.tolerance, leaf_before) * face.plane.normal);
     around.extend(building_.vertices[v] - depth_behind(params_) * face.plane.normal);
   }
   around.min().z() -= step;
   const Eigen::AlignedBox2d& box = evidence.mask.box();
   const Eigen::AlignedBox2d below(box.min() - Eigen::Vector2d(0, step), Eigen::Vector2d(box.max().x(), box.min().y()));
   // The floor's points do not close doors.
-  const double foot = face.surface == SurfaceClass::wall ? box.min().y() + evidence.tolerance : box.min().y();
+  const bool wall = face.surface == SurfaceClass::wall;
+  const double foot = wall ? box.min().y() + evidence.tolerance : box.min().y();
   space_.each_point_in(around, [&](const Eigen::Vector3d& p) {
     const double distance = face.plane.signed_distance(p);
-    if (distance > evidence.tolerance || distance < -depth_behind(params_)) return;
+    if (distance > std::max(evidence.tolerance, leaf_before) || distance < -depth_behind(params_)) return;
     const Eigen::Vector2d at = evidence.frame.to_plane(p);
+    if (wall && distance <= leaf_before && distance >= -leaf_behind && box.contains(at))
+      evidence.near.emplace_back(Eigen::Vector3d(at.x(), at.y(), distance).cast<float>());
+    if (distance > evidence.tolerance) return;
     if (!box.contains(at)) {
       if (distance < -evidence.tolerance && below.contains(at)) evidence.lower.emplace_back(at.x(), at.y(), -distance);
       return;

@@ -20,10 +20,12 @@ struct FaceEvidence {
   std::vector<Eigen::Vector3d> lower;    ///< the same below a wall's foot, up to 20 cm: floors outside lie lower
   std::vector<Eigen::Vector2d> through;  ///< where the ways from the room's scanner places to points behind it cross
                                          ///< it; where those are not known: the points within the wall
-  double stray = 0;                      ///< how many of these there are per solid square, where none can be
-  bool ways_known = false;               ///< whether it is known from where points were seen; otherwise none cross it
-  double tolerance = 0;                  ///< points this near lie on the face, metres
-  double spacing = 0;                    ///< how far points stand for the surface around them, metres (FaceMask::cover)
+  std::vector<Eigen::Vector3f> near;  ///< of walls: points up to `leaf_behind` behind and `leaf_before` before it; the
+                                      ///< third number is how far before
+  double stray = 0;                   ///< how many of these there are per solid square, where none can be
+  bool ways_known = false;            ///< whether it is known from where points were seen; otherwise none cross it
+  double tolerance = 0;               ///< points this near lie on the face, metres
+  double spacing = 0;                 ///< how far points stand for the surface around them, metres (FaceMask::cover)
   bool looked_at() const { return mask.width() > 0; }
 };
 

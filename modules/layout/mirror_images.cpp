@@ -8,7 +8,8 @@
 namespace atrium::layout {
 namespace {
 
-constexpr double cell = 0.1;  // metres: how near an image must be
+constexpr double cell = 0.1;       // metres: how near an image must be
+constexpr double off_faces = 0.2;  // metres: radiators and skirting boards stand in any room
 
 std::uint64_t key_of(const Eigen::Vector3d& p) {
   std::uint64_t key = 0;
@@ -30,9 +31,9 @@ bool contains(const std::vector<Eigen::Vector3d>& ring, const Eigen::Vector3d& p
 /// What a room shows.
 struct Content {
   Eigen::AlignedBox3d box;
-  std::size_t points = 0;                ///< in all
-  std::vector<Eigen::Vector3d> objects;  ///< those off its faces
-  std::unordered_set<std::uint64_t> cells;
+  std::size_t points = 0;                   ///< in all
+  std::vector<Eigen::Vector3d> objects;     ///< those off its faces
+  std::unordered_set<std::uint64_t> cells;  ///< of the objects
 
   bool near(const Eigen::Vector3d& p) const {
     for (int x = -1; x <= 1; ++x)
@@ -45,7 +46,7 @@ struct Content {
 
 bool is_at_face(const Building& building, const BuildingRoom& room, const Eigen::Vector3d& p) {
   return std::any_of(room.faces.begin(), room.faces.end(), [&](std::int32_t f) {
-    return std::abs(building.faces[static_cast<std::size_t>(f)].plane.signed_distance(p)) < cell;
+    return std::abs(building.faces[static_cast<std::size_t>(f)].plane.signed_distance(p)) < off_faces;
   });
 }
 
@@ -56,36 +57,42 @@ std::vector<Content> contents_of(const Building& building, const Cloud& cloud) {
     for (const auto f : building.rooms[r].faces)
       for (const auto v : building.faces[static_cast<std::size_t>(f)].outline)
         result[r].box.extend(building.vertices[v]);
-  const std::size_t step = std::max<std::size_t>(1, cloud.size() / most);
+  const std::size_t step = std::max<std::size_t>(1, (cloud.size() + most - 1) / most);
   for (std::size_t i = 0; i < cloud.size(); i += step) {
     const Eigen::Vector3d p = cloud.points[i].cast<double>();
     for (std::size_t r = 0; r < result.size(); ++r) {
       const BuildingRoom& room = building.rooms[r];
       if (!result[r].box.contains(p) || !contains(room.outline, p)) continue;
       ++result[r].points;
+      if (is_at_face(building, room, p)) break;
+      result[r].objects.push_back(p);
       result[r].cells.insert(key_of(p));
-      if (!is_at_face(building, room, p)) result[r].objects.push_back(p);
       break;
     }
   }
   return result;
 }
 
-/// The share of one room's objects that stand where the other one shows something, mirrored at the best of its walls.
+double share_shown(const Content& shown, const Content& by, const Plane& mirror) {
+  const auto count = std::count_if(shown.objects.begin(), shown.objects.end(), [&](const Eigen::Vector3d& p) {
+    return by.near(p - 2 * mirror.signed_distance(p) * mirror.normal);
+  });
+  return static_cast<double>(count) / static_cast<double>(shown.objects.size());
+}
+
+/// The share of one room's objects that stand in the other one, too, mirrored at the best of its walls.
 double mirrored_share(const Building& building, const BuildingRoom& room, const Content& content,
                       const Content& image) {
   constexpr double off = 0.75;  // metres between the middles: an image is often cut off
+  constexpr double back = 0.5;  // of the room's own objects that its image must show
   double best = 0;
   for (const auto f : room.faces) {
     const BuildingFace& face = building.faces[static_cast<std::size_t>(f)];
     if (face.surface != SurfaceClass::wall) continue;
-    const auto mirrored = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
-      return p - 2 * face.plane.signed_distance(p) * face.plane.normal;
-    };
-    if ((mirrored(image.box.center()) - content.box.center()).norm() > off) continue;
-    const auto shown = std::count_if(image.objects.begin(), image.objects.end(),
-                                     [&](const Eigen::Vector3d& p) { return content.near(mirrored(p)); });
-    best = std::max(best, static_cast<double>(shown) / static_cast<double>(image.objects.size()));
+    const Eigen::Vector3d middle = image.box.center();
+    const Eigen::Vector3d mirrored = middle - 2 * face.plane.signed_distance(middle) * face.plane.normal;
+    if ((mirrored - content.box.center()).norm() > off || share_shown(content, image, face.plane) < back) continue;
+    best = std::max(best, share_shown(image, content, face.plane));
   }
   return best;
 }
@@ -101,7 +108,7 @@ std::vector<MirrorImage> mirror_images(const Building& building, const PlanePrim
   for (std::size_t image = 0; image < contents.size(); ++image) {
     if (contents[image].objects.size() < fewest) continue;
     for (std::size_t room = 0; room < contents.size(); ++room) {
-      if (contents[room].points <= contents[image].points) continue;
+      if (contents[room].points <= contents[image].points || contents[room].objects.size() < fewest) continue;
       const double share = mirrored_share(building, building.rooms[room], contents[room], contents[image]);
       if (share < least) continue;
       result.push_back({image, room, share});

@@ -70,11 +70,30 @@ bool is_glass(const Eigen::Vector2d& size) {
   return size.y() > highest || (size.y() >= lowest && size.x() > widest);
 }
 
+/// Whether it may be a gate or a door of two leaves all the same, where no other door leads into its room.
+bool is_gate(const Eigen::Vector2d& size) {
+  constexpr double widest = 2.1, highest = 2.5;  // metres
+  return size.x() <= widest && size.y() <= highest;
+}
+
 bool has_top_of_door(const FaceHole& hole) {
   constexpr double widest = 1.3, lowest = 1.9, highest = 2.3;  // metres
   const double top = hole.box.max().y() - hole.foot;
   return hole.box.sizes().x() <= widest && top >= lowest && top <= highest;
 }
+
+/// Whether a window of which the wall below is hidden may be the only door of its room.
+bool may_be_only_door(const FaceHole& hole) {
+  constexpr double widest = 1.1, most_hidden = 1;  // metres
+  return has_top_of_door(hole) && hole.box.sizes().x() <= widest && hole.box.min().y() - hole.foot <= most_hidden;
+}
+
+/// A hole that is a window, and may be a door.
+struct MaybeDoor {
+  std::size_t opening = 0, face = 0;
+  FaceHole hole;
+  bool foot_hidden = false;  ///< otherwise it reaches the floor, and is glazed by its size
+};
 
 class Joining {
  public:
@@ -87,6 +106,7 @@ class Joining {
     for (std::size_t f = 0; f < found_.size(); ++f)
       for (std::size_t h = 0; h < found_[f].size(); ++h)
         if (!used_[f][h]) join(f, found_[f][h], used_[f].begin() + static_cast<std::ptrdiff_t>(h));
+    open_closed_rooms();
     return std::move(joined_);
   }
 
@@ -133,15 +153,19 @@ class Joining {
   /// A hole with nothing on the other side.
   void lead_out(std::size_t f, FaceHole hole) {
     if (hole.kind == "window" && hole.foot_hidden) {
-      if (hole.leads_on)
+      // The pane of a window is behind its wall as leaves are.
+      if (hole.leads_on && has_top_of_door(hole)) {
         reach_foot(hole);
-      else if (has_top_of_door(hole))
+      } else if (hole.leads_on || has_top_of_door(hole)) {
         ++joined_.hidden_feet;
+        if (may_be_only_door(hole)) maybe_.push_back({joined_.openings.size(), f, hole, true});
+      }
     }
     if (!hole.leads_on && hole.kind == "door") {
       if (is_glass(hole.box.sizes())) {
         hole.kind = "window";
         ++joined_.blank_windows;
+        if (is_gate(hole.box.sizes())) maybe_.push_back({joined_.openings.size(), f, hole, false});
       } else if (hole.box.sizes().y() < params_.min_door_height) {
         ++joined_.low_blanks;
         return;
@@ -152,7 +176,32 @@ class Joining {
     add(f, hole, nullptr);
   }
 
+  /// A room into which nothing leads has its entrance where there may be a door: the narrowest of the holes down to the
+  /// floor, or else of those whose foot is hidden.
+  void open_closed_rooms() {
+    std::vector<bool> open(building_.rooms.size(), false);
+    for (const auto& opening : joined_.openings)
+      for (const auto room : {opening.room_a, opening.room_b})
+        if (room >= 0 && opening.kind != "window") open[static_cast<std::size_t>(room)] = true;
+    std::stable_sort(maybe_.begin(), maybe_.end(), [](const MaybeDoor& a, const MaybeDoor& b) {
+      return a.foot_hidden != b.foot_hidden ? b.foot_hidden : a.hole.box.sizes().x() < b.hole.box.sizes().x();
+    });
+    for (auto& maybe : maybe_) {
+      const auto room = static_cast<std::size_t>(building_.faces[maybe.face].room);
+      if (open[room]) continue;
+      open[room] = true;
+      reach_foot(maybe.hole);
+      joined_.openings[maybe.opening] = opening_of(maybe.face, maybe.hole, nullptr);
+      --(maybe.foot_hidden ? joined_.hidden_feet : joined_.blank_windows);
+      ++(maybe.foot_hidden ? joined_.only_doors : joined_.blank_doors);
+    }
+  }
+
   void add(std::size_t f, const FaceHole& hole, const std::size_t* other) {
+    joined_.openings.push_back(opening_of(f, hole, other));
+  }
+
+  BuildingOpening opening_of(std::size_t f, const FaceHole& hole, const std::size_t* other) const {
     BuildingOpening opening;
     const bool passage = hole.kind == "door" && hole.box.sizes().x() > params_.max_door_width;
     opening.kind = passage ? "passage" : hole.kind;
@@ -167,7 +216,7 @@ class Joining {
       for (auto it = opening.outline_a.rbegin(); it != opening.outline_a.rend(); ++it)
         opening.outline_b.push_back(moved_onto(back.plane, *it));
     }
-    joined_.openings.push_back(std::move(opening));
+    return opening;
   }
 
   const Building& building_;
@@ -175,6 +224,7 @@ class Joining {
   const Openings::Params& params_;
   std::vector<std::vector<std::size_t>> behind_;
   std::vector<std::vector<bool>> used_;
+  std::vector<MaybeDoor> maybe_;
   JoinedOpenings joined_;
 };
 

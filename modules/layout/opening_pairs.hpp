@@ -26,6 +26,7 @@ struct JoinedOpenings {
   std::size_t blank_windows = 0;  ///< windows by their size
   std::size_t low_blanks = 0;     ///< lower than min_door_height: left out
   std::size_t hidden_feet = 0;    ///< windows as wide as a door and up to its height, of which the wall below is hidden
+  std::size_t only_doors = 0;     ///< of these the ones that are taken for doors, as no other leads into their room
 };
 
 /// One opening for each hole, or for two that lie over each other in opposite faces. Doors wider than max_door_width

@@ -22,11 +22,19 @@ namespace atrium::layout {
 /// - Panes often show nothing behind them. A gap in an outer wall is a window all the same if nine tenths of each side
 ///   of its rim were seen, most of it is in sight, it has 0.3 m² or more, and nothing stands up to 0.6 m before it. The
 ///   warning counts these, and gaps that are less clean, which are left closed.
+/// - Closed doors, whose leaf hides what is behind it, are rectangles of a door's size on the wall's foot that stand 2
+///   to 16 cm behind the wall around them, or 2 to 6 cm before it, with a clean rim (layout/closed_leaves.hpp); blinds
+///   and panes above a sill likewise, 3 cm behind at least, in outer walls only. They are no doors if the wall is whole
+///   on its other side. The log names each with its step and a confidence; those below 0.7 are warned of, those below
+///   0.5 are left closed, with a warning.
 /// - What begins within sill_height over its face's foot, or hides its foot and joins two rooms or has a leaf, is a
 ///   door and reaches the foot; wider than max_door_width it is a passage. Lower than min_door_height, it is
 ///   warned of; it is left out, with a warning, if it is lower than 1 m or less than 0.6 m wide, too. One that joins no
 ///   rooms, shows no leaf and has no floor beyond is glazed if it is higher than 2.4 m, or wider than 1.3 m and
 ///   1.8 m high: a window, as all others are. Else it is a door, or left out if it is low. Warnings count these.
+/// - A room into which nothing else leads has its door in the narrowest of its glazed openings down to the floor of 2.1
+///   by 2.5 m at most and its windows whose foot is hidden and that are 1.1 m wide at most; of the latter a warning
+///   tells.
 /// - Faces that are inferred, or of which less than 5 % was seen, have no openings of their own. Around an opening the
 ///   face must have been seen: on min_rim of a rim of 15 cm, on min_wide_rim of it for slabs and for what is wider than
 ///   max_door_width. These must have their rim on each side, wide openings in walls both jambs in the face. Openings

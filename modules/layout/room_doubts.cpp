@@ -24,26 +24,30 @@ double height_share(double height, double area, double ceiling) {
   return ramp(height, 1.2, 2);
 }
 
-std::string hardly_seen(std::string_view what, double share) {
-  constexpr double none = 0.05;
-  return share < none ? fmt::format("its {} was not seen", what)
-                      : fmt::format("only {:.0f} % of its {} was seen", percent(share), what);
+/// Why a room of which one level was hardly seen is doubtful; empty: both were seen.
+std::string unseen_level(const RoomEvidence& e) {
+  constexpr double hardly = 0.2, neither = 0.1, none = 0.05;
+  if (e.floor < neither && e.ceiling < neither) return "neither its floor nor its ceiling was seen";
+  if (e.floor < none) return "its floor was not seen";
+  if (e.ceiling < none) return "its ceiling was not seen";
+  if (e.floor < hardly) return fmt::format("only {:.0f} % of its floor was seen", percent(e.floor));
+  if (e.ceiling < hardly) return fmt::format("only {:.0f} % of its ceiling was seen", percent(e.ceiling));
+  return {};
 }
 
 std::vector<Doubt> doubts_of(const BuildingRoom& room, const RoomEvidence& e) {
-  constexpr double one_level = 0.85, hardly = 0.2, unseen = 0.1;
+  constexpr double one_level = 0.85;
   std::vector<Doubt> doubts;
   const auto add = [&](double share, std::string reason) { doubts.push_back({share, std::move(reason)}); };
   add(ramp(e.walls, 0.08, 0.4), fmt::format("{:.0f} % of its walls were seen", percent(e.walls)));
   add(ramp(e.enclosed, 0.45, 0.8), fmt::format("walls were seen along {:.0f} % of its outline", percent(e.enclosed)));
   add(ramp(e.contact, 0.05, 0.4),
       fmt::format("{:.0f} % of its walls' length stands on a floor or reaches a ceiling", percent(e.contact)));
-  add(ramp(std::max(e.floor, e.ceiling), 0.1, 0.5) * (std::min(e.floor, e.ceiling) < hardly ? one_level : 1),
-      e.floor < unseen && e.ceiling < unseen ? "neither its floor nor its ceiling was seen"
-      : e.floor < hardly                     ? hardly_seen("floor", e.floor)
-      : e.ceiling < hardly                   ? hardly_seen("ceiling", e.ceiling)
-                           : fmt::format("{:.0f} % of its floor and {:.0f} % of its ceiling were seen",
-                                         percent(e.floor), percent(e.ceiling)));
+  const std::string unseen = unseen_level(e);
+  add(ramp(std::max(e.floor, e.ceiling), 0.1, 0.5) * (unseen.empty() ? 1 : one_level),
+      !unseen.empty() ? unseen
+                      : fmt::format("{:.0f} % of its floor and {:.0f} % of its ceiling were seen", percent(e.floor),
+                                    percent(e.ceiling)));
   add(height_share(e.headroom, room.area, e.ceiling),
       fmt::format("it is {:.2f} m high, {}", e.headroom,
                   e.headroom < 1.8 ? "too low to stand in"

@@ -33,6 +33,9 @@ class Squares {
     for (std::size_t k = 0; k < cells.size(); ++k) paint(static_cast<std::int32_t>(k));
   }
 
+  /// Whether squares are small enough to see a neck.
+  bool fine() const { return pixel_ <= least_neck / 4; }
+
   /// The parts' cells, as in parted_at_necks.
   std::vector<std::vector<std::size_t>> parts() {
     const std::vector<bool> core = eroded();
@@ -58,6 +61,7 @@ class Squares {
     std::vector<std::vector<std::size_t>> result(count);
     for (std::size_t k = 0; k < cells_.size(); ++k)
       if (of_cell[k] >= 0) result[static_cast<std::size_t>(of_cell[k])].push_back(cells_[k]);
+    std::erase_if(result, [](const auto& part) { return part.empty(); });
     return result;
   }
 
@@ -137,7 +141,8 @@ class Squares {
         beside[k] = beside[k] == none || beside[k] == part[other] ? part[other] : several;
       };
       for (const auto& edge : storey_.edges) {
-        if (edge.left < 0 || edge.right < 0) continue;
+        constexpr double mostly = 0.5;  // a wall
+        if (edge.left < 0 || edge.right < 0 || std::max(edge.wall_left, edge.wall_right) > mostly) continue;
         const auto a = place.find(static_cast<std::size_t>(edge.left));
         const auto b = place.find(static_cast<std::size_t>(edge.right));
         if (a == place.end() || b == place.end()) continue;
@@ -186,7 +191,8 @@ std::vector<std::vector<std::size_t>> parted_at_necks(const StoreyCells& storey,
   double area = 0;
   for (const auto c : cells) area += storey.cells[c].area;
   if (area < 2 * least_part) return {cells};
-  return Squares(storey, cells).parts();
+  Squares squares(storey, cells);
+  return squares.fine() ? squares.parts() : std::vector<std::vector<std::size_t>>{cells};
 }
 
 }  // namespace atrium::layout

@@ -149,8 +149,10 @@ bool Shelter::at_wall(const Eigen::Vector2d& p, double height, double pixel) con
 }
 
 bool Shelter::raised(std::size_t floor) const {
-  constexpr double least_walled = 0.7, all_walled = 0.9;  // of the rim; a bed in a corner has half, in an alcove 0.75
-  constexpr double most_low = 0.7;                        // of it under which one cannot stand: a worktop
+  constexpr double
+      least_walled = 0.7,
+      all_walled = 0.82;  // of the rim: a bed in a corner has half, in an alcove 0.75, a small room with a door 0.87
+  constexpr double most_low = 0.7;  // of it under which one cannot stand: a worktop
   const Piece piece = largest_piece(floor);
   return piece.area >= least_raised && piece.walled >= (piece.area < large_raised ? all_walled : least_walled) &&
          under_low_ceiling(floor) <= most_low;

@@ -20,13 +20,25 @@ std::span<const double> shortest_half(std::span<const double> sorted) {
   return sorted.subspan(best, half + 1);
 }
 
+/// The step of values that are rounded to few numbers; 0: they are not. `sorted`: without the far ones.
+double step_of(std::span<const double> sorted) {
+  constexpr std::size_t few = 20;
+  std::size_t distinct = 1;
+  constexpr double same = 1e-5;  // metres: of rounding
+  for (std::size_t i = 1; i < sorted.size() && distinct <= few; ++i)
+    distinct += sorted[i] - sorted[i - 1] > same ? 1 : 0;
+  return distinct > few || distinct < 2 ? 0 : (sorted.back() - sorted.front()) / static_cast<double>(distinct - 1);
+}
+
 /// Where most of the values lie; they get sorted.
 double location(std::vector<double>& values) {
   std::sort(values.begin(), values.end());
   const std::span<const double> quarter = shortest_half(shortest_half(values));
   constexpr double deviations = 0.637;  // that the middle quarter of a normal distribution is wide
   constexpr double biweight = 2.5;  // deviations: three quarters of the efficiency of the mean, for less clutter in it
-  const double width = biweight * (quarter.back() - quarter.front()) / deviations;
+  const std::size_t tail = values.size() / 10;
+  const double step = step_of(std::span(values).subspan(tail, values.size() - 2 * tail));
+  const double width = biweight * std::max(step, (quarter.back() - quarter.front()) / deviations);
   double at = (quarter.front() + quarter.back()) / 2;
   if (!(width > 0)) return at;
   constexpr int most_steps = 50;

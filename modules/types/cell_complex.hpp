@@ -85,14 +85,13 @@ struct LayoutCell {
 struct StoreyCells {
   static constexpr auto members() {
     return std::tuple{
-        &StoreyCells::low,      &StoreyCells::high,    &StoreyCells::floor_height, &StoreyCells::ceiling_height,
-        &StoreyCells::wall_end,
-        &StoreyCells::vertices, &StoreyCells::lines,   &StoreyCells::edges,        &StoreyCells::cells,
-        &StoreyCells::floors,   &StoreyCells::ceilings};
+        &StoreyCells::low,      &StoreyCells::high,     &StoreyCells::floor_height, &StoreyCells::ceiling_height,
+        &StoreyCells::wall_end, &StoreyCells::vertices, &StoreyCells::lines,        &StoreyCells::edges,
+        &StoreyCells::cells,    &StoreyCells::floors,   &StoreyCells::ceilings};
   }
   double low = 0, high = 0;                     ///< the storey's part of the z axis, metres
   double floor_height = 0, ceiling_height = 0;  ///< of the largest floor and ceiling, or of the walls' ends
-  double wall_end = unknown_top;  ///< below which two fifths of the walls end, if no ceiling was scanned
+  double wall_end = unknown_top;                ///< below which two fifths of the walls end, if no ceiling was scanned
   std::vector<Eigen::Vector2d> vertices;
   std::vector<CellLine> lines;
   std::vector<CellEdge> edges;

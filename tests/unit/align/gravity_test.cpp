@@ -68,7 +68,14 @@ TEST(AlignGravity, FindsTheFloorOfAFurnishedCubeInAnyFrame) {
     test::Warnings warnings;
     const Transform frame = chained(frame_with(up), turn({1, 2, 0.5}, 3));
     const auto out = Gravity::run({input(transformed(cube, frame)), {}}, {}, warnings.context());
-    EXPECT_LT(degrees_off(out, frame), 1e-3) << up.transpose();
+    // Hardly a file has its up there: two seats and a table may not outweigh that, but it is said.
+    if (degrees_off(out, frame) > 1e-3) {
+      EXPECT_FALSE(up.z() > 0 || up.y() > 0) << up.transpose();
+      EXPECT_LT(out.transform.upright, 0.9) << up.transpose();
+      ASSERT_EQ(warnings.texts().size(), 1U);
+      EXPECT_NE(warnings.texts()[0].find("but it may be"), std::string::npos) << warnings.texts()[0];
+      continue;
+    }
     EXPECT_NEAR(out.transform.rotation.determinant(), 1, 1e-12);
     EXPECT_EQ(warnings.texts().empty(), up.z() > 0) << up.transpose();
     if (up.z() > 0) continue;
@@ -130,6 +137,56 @@ TEST(AlignGravity, SlopesDoNotTiltAnAttic) {
         Gravity::run({input(transformed(without_sides(attic().planes()), frame)), {}}, {}, warnings.context());
     EXPECT_LT(degrees_off(out, frame), 1e-3);
     EXPECT_TRUE(warnings.texts().empty());
+  }
+}
+
+TEST(AlignGravity, SlopesAreAbove) {
+  for (const double z : {1.0, -1.0}) {
+    test::Warnings warnings;
+    const Transform frame = frame_with({0, 0, z});
+    const auto out = Gravity::run({input(transformed(without_sides(attic().planes()), frame)), {}}, {.prior = 0},
+                                  warnings.context());
+    EXPECT_LT(degrees_off(out, frame), 1e-3) << z;
+  }
+}
+
+/// 3.4 × 2.7 × 2.5 m with a beam along its longer side, 0.45 m deep.
+test::Rooms room_with_a_beam() {
+  test::Rooms rooms;
+  rooms.floor(0, 0, 3.4, 2.7).ceiling(0, 0, 3.4, 2.2).walls({{0, 0}, {3.4, 0}, {3.4, 2.7}, {0, 2.7}});
+  rooms.ceiling(0, 2.2, 3.4, 2.7, 2.05).wall(3.4, 2.2, 0, 2.2, 2.05, 2.5);
+  return rooms;
+}
+
+/// The same with a bed and a heap of clothes, which are on no plane, and a stool.
+test::Rooms bedroom() {
+  test::Rooms rooms = room_with_a_beam();
+  for (double x = 0.1; x < 2.0; x += 0.04)
+    for (double y = 0.1; y < 1.0; y += 0.04) rooms.stray({x, y, 0.45 + 0.08 * std::sin(9 * x) * std::cos(11 * y)});
+  for (double x = 0.1; x < 2.0; x += 0.04)
+    for (double z = 0.05; z < 0.4; z += 0.04) rooms.stray({x, 1.0 + 0.06 * std::sin(13 * x + 9 * z), z});
+  for (double a = 0; a < 6; a += 0.05)
+    for (double z = 0.05; z < 0.9; z += 0.04)
+      rooms.stray({2.8 + 0.3 * std::sin(3 * z) * std::cos(a), 2.1 + 0.3 * std::sin(3 * z) * std::sin(a), z});
+  box(rooms, 2.5, 0.3, 0.42, 0.42, 0.45);
+  return rooms;
+}
+
+TEST(AlignGravity, ABeamIsNoTable) {
+  test::Warnings warnings;
+  const auto out =
+      Gravity::run({input(without_sides(room_with_a_beam().planes())), {}}, {.prior = 0}, warnings.context());
+  EXPECT_LT(out.transform.upright, degrees_off(out, {}) > 1 ? 0.4 : 0.9) << "nothing but its height tells";
+}
+
+TEST(AlignGravity, WhatIsOnNoPlaneLiesLow) {
+  const PlanePrimitives room = without_sides(bedroom().planes());
+  for (const Vector3d& up : {Vector3d(0, 0, 1), Vector3d(0, 1, 0)}) {
+    test::Warnings warnings;
+    const Transform frame = frame_with(up);
+    const auto out = Gravity::run({input(transformed(room, frame)), {}}, {}, warnings.context());
+    EXPECT_LT(degrees_off(out, frame), 1e-2) << up.transpose();
+    EXPECT_GT(out.transform.upright, up.z() > 0 ? 0.9 : 0.5) << up.transpose();
   }
 }
 

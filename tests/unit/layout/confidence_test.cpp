@@ -77,7 +77,8 @@ TEST(Confidence, AWholeRoomIsCertain) {
   EXPECT_DOUBLE_EQ(result.room().confidence, 1);
   EXPECT_DOUBLE_EQ(result.building.confidence, 1);
   EXPECT_TRUE(result.room().doubts.empty());
-  EXPECT_TRUE(result.warnings->texts.empty());
+  EXPECT_EQ(result.warnings->texts,
+            std::vector<std::string>{"no door or passage was found into 1 of 1 rooms (room 1)"});
 }
 
 TEST(Confidence, WithoutFloorOrCeilingItIsLessSoAndSaysWhy) {
@@ -208,6 +209,7 @@ TEST(Confidence, RoomsWithoutAWayInAreNamed) {
   EXPECT_TRUE(closed.warnings->mention("no door or passage"));
   building.openings.clear();
   EXPECT_TRUE(judged(building, scene).warnings->mention("no door or passage was found into 2 of 2 rooms"));
+  EXPECT_TRUE(measured(box(), shown({})).warnings->mention("no door or passage was found into 1 of 1 rooms"));
 }
 
 TEST(Confidence, WallsThatEndBelowACeilingThatGoesOnAreDoubted) {
@@ -224,7 +226,7 @@ TEST(Confidence, FloorUnderACeilingThatNoRoomHoldsIsWarnedOf) {
   ASSERT_EQ(result.building.rooms.size(), 1U) << result.error;
   EXPECT_LT(result.building.confidence, 0.7);
   EXPECT_TRUE(result.warnings->mention("in no room"));
-  ASSERT_EQ(result.building.doubts.size(), 1U);
+  ASSERT_EQ(result.building.doubts.size(), 2U);  // there is no door
   // A table's underside is no ceiling, and a balcony's slab of 1 m2 too little to tell.
   Scene small = shown({});
   small.ceiling(1, 1, 3, 2, 0.7).floor(5, 0, 6, 1).ceiling(5, 0, 6, 1);
@@ -320,10 +322,15 @@ TEST(Confidence, AnUncertainAxisIsADoubtOfTheBuilding) {
   Transform transform;
   transform.upright = 0.6;
   const auto result = judged(box(), shown({}), {}, transform);
-  EXPECT_NEAR(result.building.confidence, 0.7, 1e-12);
+  EXPECT_NEAR(result.building.confidence, 0.6, 1e-12);
   EXPECT_DOUBLE_EQ(result.room().confidence, 1);
   EXPECT_TRUE(result.warnings->mention("which way is up is not certain (60 %)"));
-  ASSERT_EQ(result.building.doubts.size(), 1U);
+  ASSERT_EQ(result.building.doubts.size(), 2U);  // there is no door
+  // Above 90 % it is no doubt of its own, but counts as much as it is.
+  transform.upright = 0.95;
+  const auto likely = judged(box(), shown({}), {}, transform);
+  EXPECT_NEAR(likely.building.confidence, 0.95, 1e-12);
+  EXPECT_EQ(likely.building.doubts.size(), 1U) << "there is no door";
 }
 
 TEST(Confidence, PointsThatAreFarApartAreADoubtOfTheBuilding) {

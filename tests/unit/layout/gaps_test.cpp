@@ -51,6 +51,17 @@ TEST(Gaps, ADoorwayWhoseLintelWasNotSeenIsClosed) {
   EXPECT_TRUE(closed(with_gap(0.3, 2.5), 0.3)) << "too narrow to pass";
 }
 
+TEST(Gaps, ACorridorBetweenTwoWallsOfOneLineStaysOpen) {
+  StoreyCells storey = with_gap(1.2, 1.6);
+  for (auto& edge : storey.edges) {
+    const Eigen::Vector2d p = (storey.vertices[edge.from] + storey.vertices[edge.to]) / 2;
+    if ((p.y() != 1 && p.y() != 2.2) || (p.x() > 4 && p.x() < 4.12)) continue;
+    edge.face_left = edge.face_right = 1;
+    edge.top_left = edge.top_right = 1.6;
+  }
+  EXPECT_FALSE(closed(storey, 1.2));
+}
+
 std::vector<std::vector<std::size_t>> parts(double gap) {
   const StoreyCells storey = with_gap(gap, 2.5);
   std::vector<std::size_t> inside;

@@ -44,6 +44,17 @@ TEST(MirrorImages, RoomsBuiltAsEachOthersImageAreFurnishedDifferently) {
   EXPECT_TRUE(mirror_images(two_rooms(), furnished(0.7)).empty());
 }
 
+TEST(MirrorImages, RadiatorsAtTheWallsOfEmptyRoomsAreNoImage) {
+  atrium::test::Rooms scene;
+  scene.floor(0, 0, 4, 3).ceiling(0, 0, 4, 3).floor(4, 0, 8, 3).ceiling(4, 0, 8, 3);
+  for (double u = 0; u < 2; u += 0.03)
+    for (double z = 0.1; z < 0.8; z += 0.03) {
+      scene.stray({1 + u, 0.12, z});
+      if (z < 0.5) scene.stray({7 - u, 0.12, z});
+    }
+  EXPECT_TRUE(mirror_images(two_rooms(), scene.planes()).empty());
+}
+
 TEST(MirrorImages, OfHardlyFurnishedRoomsNothingIsSaid) {
   EXPECT_TRUE(mirror_images(two_rooms(), furnished(0, 0.4)).empty());
   EXPECT_TRUE(mirror_images(Building{}, furnished(0)).empty());

@@ -123,12 +123,105 @@ TEST(Openings, AHoleDownToTheFloorIsADoorByItsLeafOrItsSize) {
       if (leaf) scatter(scene, {1.5, -0.25, 0}, {width, 0, 0}, {0, 0, 2.05});
       const auto layout = laid_out(scene.planes());
       ASSERT_EQ(layout.building.openings.size(), 1U) << leaf << width;
-      const bool by_size = width < 1;  // wider ones are glass
-      EXPECT_EQ(layout.building.openings[0].kind, leaf || by_size ? "door" : "window") << leaf << width;
+      EXPECT_EQ(layout.building.openings[0].kind, "door") << leaf << width;
       EXPECT_EQ(layout.warnings->mention("neither a leaf nor a floor"), !leaf) << leaf << width;
       EXPECT_NEAR(place_of(layout.building.openings[0]).min().y(), 0, 1e-3);
       EXPECT_NEAR(place_of(layout.building.openings[0]).max().y(), 2.05, 0.03);
     }
+}
+
+TEST(Openings, GlassDownToTheFloorIsTheDoorOfARoomWithoutAnother) {
+  const AlignedBox2d glass(Vector2d(1.5, 0), Vector2d(3.3, 2.05)), way(Vector2d(0.9, 0), Vector2d(1.8, 2.05));
+  for (const bool other : {true, false}) {
+    Scene scene;
+    scene.floor(0, 0, 4, 3).ceiling(0, 0, 4, 3).wall(4, 0, 4, 3).wall(0, 3, 0, 0);
+    scene.add({0, 0, 0}, {4, 0, 0}, {0, 0, 2.5}, {0, 1, 0}, without({0, 0, 0}, {1, 0, 0}, glass));
+    add_reveal(scene, glass);
+    scene.add({4, 3, 0}, {-4, 0, 0}, {0, 0, 2.5}, {0, -1, 0},
+              without({4, 3, 0}, {-1, 0, 0}, other ? way : AlignedBox2d()));
+    if (other) scatter(scene, {2.2, 3.2, 0}, {0.9, 0, 0}, {0, 0, 2.05});  // its leaf
+    const auto layout = laid_out(scene.planes());
+    EXPECT_EQ(std::count_if(layout.building.openings.begin(), layout.building.openings.end(),
+                            [](const auto& opening) { return opening.kind == "door"; }),
+              1);
+    EXPECT_TRUE(layout.warnings->mention(other ? "0 are taken for doors, 1 for windows" : "1 are taken for doors, 0"));
+  }
+}
+
+/// A room whose wall at y = 0 has a rectangle that stands `depth` behind it (below 0: before it), with its sides.
+Scene room_with_leaf(const AlignedBox2d& leaf, double depth, bool sides, double noise = 0, double spacing = 0.025) {
+  Scene scene;
+  scene.spacing = spacing;
+  scene.noise = noise;
+  scene.floor(0, 0, 4, 3).ceiling(0, 0, 4, 3).wall(4, 0, 4, 3).wall(4, 3, 0, 3).wall(0, 3, 0, 0);
+  scene.add({0, 0, 0}, {4, 0, 0}, {0, 0, 2.5}, {0, 1, 0}, without({0, 0, 0}, {1, 0, 0}, leaf));
+  const Vector3d low(leaf.min().x(), 0, leaf.min().y()), across(leaf.sizes().x(), 0, 0), up(0, 0, leaf.sizes().y());
+  Random random(2);
+  const int width = static_cast<int>(leaf.sizes().x() / spacing), height = static_cast<int>(leaf.sizes().y() / spacing);
+  for (int i = 1; i < width; ++i)
+    for (int k = 1; k < height; ++k)
+      scene.stray(low + Vector3d(i * spacing, noise * random.normal() - depth, k * spacing));
+  if (!sides) return scene;
+  const Vector3d back(0, -depth, 0);
+  scatter(scene, low, up, back, 0.02);
+  scatter(scene, low + across, up, back, 0.02);
+  scatter(scene, low + up, across, back, 0.02);
+  if (low.z() > 0) scatter(scene, low, across, back, 0.02);
+  return scene;
+}
+
+TEST(Openings, AClosedDoorIsFoundByTheStepOfItsLeaf) {
+  const AlignedBox2d leaf(Vector2d(1.5, 0), Vector2d(2.4, 2.05));
+  for (const double depth : {0.04, 0.06, 0.10, -0.03})
+    for (const bool sides : {true, false})
+      for (const double noise : {0.0, 0.005}) {
+        const auto layout = laid_out(room_with_leaf(leaf, depth, sides, noise).planes());
+        ASSERT_EQ(layout.building.openings.size(), 1U) << depth << sides << noise;
+        EXPECT_EQ(layout.building.openings[0].kind, "door") << depth << sides << noise;
+        const AlignedBox2d found = place_of(layout.building.openings[0]);
+        EXPECT_LT((found.min() - leaf.min()).cwiseAbs().maxCoeff(), 0.03) << depth << sides << noise;
+        EXPECT_LT((found.max() - leaf.max()).cwiseAbs().maxCoeff(), 0.03) << depth << sides << noise;
+      }
+}
+
+TEST(Openings, AClosedDoorOfTwoLeavesAndOneBesideACorner) {
+  for (const auto& leaf :
+       {AlignedBox2d(Vector2d(1, 0), Vector2d(2.8, 2.1)), AlignedBox2d(Vector2d(0.05, 0), Vector2d(0.95, 2.05))}) {
+    const auto layout = laid_out(room_with_leaf(leaf, 0.05, true, 0.003).planes());
+    ASSERT_EQ(layout.building.openings.size(), 1U) << leaf.min().x();
+    EXPECT_EQ(layout.building.openings[0].kind, "door");
+    EXPECT_LT((place_of(layout.building.openings[0]).max() - leaf.max()).cwiseAbs().maxCoeff(), 0.03);
+  }
+}
+
+TEST(Openings, ABlindBehindItsWallIsAWindow) {
+  const AlignedBox2d blind(Vector2d(1.2, 0.9), Vector2d(2.5, 2.0));
+  for (const double noise : {0.0, 0.005}) {
+    const auto layout = laid_out(room_with_leaf(blind, 0.04, true, noise).planes());
+    ASSERT_EQ(layout.building.openings.size(), 1U) << noise;
+    EXPECT_EQ(layout.building.openings[0].kind, "window");
+    EXPECT_LT((place_of(layout.building.openings[0]).min() - blind.min()).cwiseAbs().maxCoeff(), 0.03);
+    EXPECT_TRUE(layout.warnings->mention("windows seen as a step in their wall alone"));
+  }
+}
+
+TEST(Openings, NichesPanelsAndCupboardsAreNoDoors) {
+  const Vector2d foot(1.5, 0);
+  const auto doors = [](const Scene& scene) {
+    const auto layout = laid_out(scene.planes());
+    return std::count_if(layout.building.openings.begin(), layout.building.openings.end(),
+                         [](const auto& opening) { return opening.kind == "door"; });
+  };
+  for (const double noise : {0.0, 0.005}) {
+    EXPECT_EQ(doors(room_with_leaf({Vector2d(1.5, 0.5), Vector2d(2.4, 2.1)}, 0.04, true, noise)), 0) << "a niche";
+    EXPECT_EQ(doors(room_with_leaf({foot, Vector2d(2.4, 1.2)}, 0.04, true, noise)), 0) << "a low niche";
+    EXPECT_EQ(doors(room_with_leaf({foot, Vector2d(2.4, 2.5)}, 0.04, true, noise)), 0) << "a niche up to the ceiling";
+    EXPECT_EQ(doors(room_with_leaf({foot, Vector2d(1.9, 2.05)}, 0.04, true, noise)), 0) << "a slot";
+    EXPECT_EQ(doors(room_with_leaf({Vector2d(1, 0), Vector2d(3.6, 2.05)}, 0.04, true, noise)), 0) << "panels";
+    EXPECT_EQ(doors(room_with_leaf({foot, Vector2d(2.4, 2.05)}, -0.1, true, noise)), 0) << "a cupboard";
+    EXPECT_EQ(doors(room_with_leaf({foot, Vector2d(2.4, 2.05)}, 0.01, true, noise)), 0) << "paint";
+    EXPECT_EQ(doors(room_with_leaf({Vector2d(1.5, 0.8), Vector2d(2.4, 2.0)}, -0.03, true, noise)), 0) << "a picture";
+  }
 }
 
 TEST(Openings, AWindowWhoseWallIsHiddenBelowMayBeADoor) {
@@ -140,20 +233,21 @@ TEST(Openings, AWindowWhoseWallIsHiddenBelowMayBeADoor) {
     scatter(scene, {0.8, 0.05, 0.5}, {2.3, 0, 0}, {0, 0.25, 0});
     const auto layout = laid_out(scene.planes());
     ASSERT_EQ(layout.building.openings.size(), 1U) << top;
-    EXPECT_EQ(layout.building.openings[0].kind, "window") << top;
-    EXPECT_EQ(layout.warnings->mention("windows may be doors"), top > 2) << top;
+    // No other door leads into the room.
+    EXPECT_EQ(layout.building.openings[0].kind, top > 2 ? "door" : "window") << top;
+    EXPECT_EQ(layout.warnings->mention("are taken for doors, as no other leads into their rooms: 1"), top > 2) << top;
   }
 }
 
 TEST(Openings, AFloorThatLiesALittleLowerIsAWayOut) {
   for (const double floor : {0.0, -0.1, -0.4}) {
-    const AlignedBox2d hole(Vector2d(1, 0), Vector2d(2.8, 2.05));
+    const AlignedBox2d hole(Vector2d(0.8, 0), Vector2d(3.1, 2.05));
     Scene scene = room_with(hole);
     add_reveal(scene, hole);
     scatter(scene, {0.5, -2, floor}, {3, 0, 0}, {0, 1.7, 0});
     const auto layout = laid_out(scene.planes());
     ASSERT_EQ(layout.building.openings.size(), 1U) << floor;
-    EXPECT_EQ(layout.building.openings[0].kind, floor > -0.2 ? "door" : "window") << floor;
+    EXPECT_EQ(layout.building.openings[0].kind, floor > -0.2 ? "passage" : "window") << floor;
   }
 }
 
@@ -197,7 +291,9 @@ TEST(Openings, WhatTheOtherSideOfTheWallShowsIsNoHole) {
   // A niche: the face lacks points and its back is seen, but the other room's face is whole.
   Scene scene = two_rooms(door, {});
   scatter(scene, {4.08, 1, 0}, {0, 0.9, 0}, {0, 0, 2});
-  EXPECT_TRUE(laid_out(scene.planes()).building.openings.empty());
+  const auto layout = laid_out(scene.planes());
+  EXPECT_TRUE(layout.building.openings.empty());
+  EXPECT_TRUE(layout.warnings->mention("what may be closed doors"));
   EXPECT_TRUE(laid_out(seen_from(scene.planes(), in_both, 4.06)).building.openings.empty());
 }
 

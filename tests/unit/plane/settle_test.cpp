@@ -41,6 +41,16 @@ TEST(Settle, WhatStandsBeforeAWallDoesNotDrawItIn) {
   EXPECT_GT(-cluttered_wall(0.6).primitives[0].plane.offset, 0.015) << "least squares are drawn in";
 }
 
+TEST(Settle, RoundedCoordinatesDoNotDrawItToAStep) {
+  PlanePrimitives planes = cluttered_wall(0);
+  Cloud cloud = *planes.cloud;
+  for (auto& p : cloud.points)
+    p.x() = std::round(2 * 100 * (p.x() + 0.003F)) / 2 / 100;  // the wall is at 3 mm, steps are of 5
+  planes.cloud = std::make_shared<const Cloud>(cloud);
+  planes.primitives[0].plane.offset = -0.003;
+  EXPECT_NEAR(place_of(planes), 0.003, 0.0007);
+}
+
 TEST(Settle, NoPlaneMovesFurtherThanReach) {
   const auto planes = cluttered_wall(0.6);
   const double before = -planes.primitives[0].plane.offset;
