@@ -6,9 +6,9 @@
 namespace atrium::building {
 namespace {
 
-using Ring = std::vector<Eigen::Vector3d>;
+using PlaceRing = std::vector<Eigen::Vector3d>;
 
-double distance_to_edges(const Eigen::Vector2d& p, const Ring& ring) {
+double distance_to_edges(const Eigen::Vector2d& p, const PlaceRing& ring) {
   double least = 1e300;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Eigen::Vector2d a = ring[i].head<2>(), side = ring[(i + 1) % ring.size()].head<2>() - a;
@@ -18,7 +18,7 @@ double distance_to_edges(const Eigen::Vector2d& p, const Ring& ring) {
   return least;
 }
 
-bool is_inside(const Eigen::Vector2d& p, const Ring& ring) {
+bool is_inside(const Eigen::Vector2d& p, const PlaceRing& ring) {
   bool inside = false;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Eigen::Vector3d &a = ring[i], &b = ring[(i + 1) % ring.size()];
@@ -28,7 +28,7 @@ bool is_inside(const Eigen::Vector2d& p, const Ring& ring) {
   return inside;
 }
 
-double distance_in_plan(const Eigen::Vector2d& p, const Ring& ring) {
+double distance_in_plan(const Eigen::Vector2d& p, const PlaceRing& ring) {
   return is_inside(p, ring) ? 0 : distance_to_edges(p, ring);
 }
 
@@ -41,8 +41,8 @@ struct HeightRange {
   double from(double z) const { return std::max({low - z, z - high, 0.0}); }
 };
 
-Ring corners(const Building& building, const BuildingFace& face) {
-  Ring ring;
+PlaceRing corners(const Building& building, const BuildingFace& face) {
+  PlaceRing ring;
   ring.reserve(face.outline.size());
   for (const auto v : face.outline) ring.push_back(building.vertices[v]);
   return ring;
@@ -59,7 +59,7 @@ double height_distance(const NearPlace& place, const Building& building, const B
 
 }  // namespace
 
-double distance_to(const NearPlace& place, const Ring& ring) {
+double distance_to(const NearPlace& place, const PlaceRing& ring) {
   if (ring.empty()) return 1e300;
   const double across = distance_in_plan(place.at.head<2>(), ring);
   if (!place.has_height) return across;

@@ -222,8 +222,8 @@ std::int64_t UprightView::neighbour(std::uint32_t column, int rows, int columns)
 }
 
 Eigen::Vector2d UprightView::place_of(std::uint32_t column) const {
-  return cell_ *
-         Eigen::Vector2d(static_cast<double>(keys_[column] / wide_), static_cast<double>(keys_[column] % wide_));
+  const auto row = keys_[column] / wide_, place = keys_[column] % wide_;
+  return cell_ * Eigen::Vector2d(static_cast<double>(row), static_cast<double>(place));
 }
 
 const UprightView::Level* UprightView::below(std::uint32_t block, double height) const {

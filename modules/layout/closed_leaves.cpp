@@ -366,8 +366,11 @@ std::vector<ClosedLeaf> closed_leaves(const BuildingFace& face, const FaceEviden
     if (std::any_of(taken.begin(), taken.end(), [&](const LevelBlock& b) { return b.touches(leaf); })) return true;
     const Judged judged = judge(leaf, levels);
     if (judged.confidence <= 0) return false;
+    const FaceHole hole = hole_of(leaf, judged, levels, evidence);
+    constexpr double slack = 0.05;  // metres: of its squares
+    if (hole.kind == "door" && hole.box.sizes().y() > highest_leaf + slack) return false;
     taken.push_back(leaf);
-    result.push_back({hole_of(leaf, judged, levels, evidence), judged.step(), std::min(1.0, judged.confidence)});
+    result.push_back({hole, judged.step(), std::min(1.0, judged.confidence)});
     return true;
   };
   if (off >= least_part * narrowest_leaf * lowest_leaf) {

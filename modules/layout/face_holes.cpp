@@ -229,6 +229,8 @@ bool leads_on(const FaceEvidence& evidence, const FaceHole& hole, const Openings
 /// reveal nothing else shows.
 bool is_clean_doorway(const FaceMask& mask, const FaceEvidence& evidence, const FaceHole& hole,
                       const Openings::Params& params) {
+  constexpr double lintel = 0.1;  // metres: what reaches the ceiling is the end of a wall, or a niche
+  if (hole.box.max().y() > mask.box().max().y() - lintel) return false;
   constexpr double clean = 0.8;  // squares beside its sides count as wall
   if (hole.kind != "door" || !leads_on(evidence, hole, params)) return false;
   const Eigen::AlignedBox2i squares = mask.squares_in(hole.box);

@@ -73,26 +73,38 @@ std::vector<Content> contents_of(const Building& building, const Cloud& cloud) {
   return result;
 }
 
-double share_shown(const Content& shown, const Content& by, const Plane& mirror) {
+double share_shown(const Content& shown, const Content& by, const Plane& mirror, const Eigen::Vector3d& moved) {
   const auto count = std::count_if(shown.objects.begin(), shown.objects.end(), [&](const Eigen::Vector3d& p) {
-    return by.near(p - 2 * mirror.signed_distance(p) * mirror.normal);
+    return by.near(p - 2 * mirror.signed_distance(p) * mirror.normal + moved);
   });
   return static_cast<double>(count) / static_cast<double>(shown.objects.size());
+}
+
+/// By how much more of a room's objects stand in the other one mirrored than half a metre beside that along the wall:
+/// strays and piles of things are everywhere.
+double surplus(const Content& shown, const Content& by, const Plane& mirror, double share) {
+  constexpr double aside = 0.5;
+  const Eigen::Vector3d along = aside * mirror.normal.cross(Eigen::Vector3d::UnitZ()).normalized();
+  return share - std::max(share_shown(shown, by, mirror, along), share_shown(shown, by, mirror, -along));
 }
 
 /// The share of one room's objects that stand in the other one, too, mirrored at the best of its walls.
 double mirrored_share(const Building& building, const BuildingRoom& room, const Content& content,
                       const Content& image) {
-  constexpr double off = 0.75;  // metres between the middles: an image is often cut off
-  constexpr double back = 0.5;  // of the room's own objects that its image must show
+  constexpr double off = 0.75;        // metres between the middles: an image is often cut off
+  constexpr double back = 0.5;        // of the room's own objects that its image must show
+  constexpr double by_chance = 0.25;  // least surplus
   double best = 0;
   for (const auto f : room.faces) {
     const BuildingFace& face = building.faces[static_cast<std::size_t>(f)];
     if (face.surface != SurfaceClass::wall) continue;
+    const Plane& mirror = face.plane;
     const Eigen::Vector3d middle = image.box.center();
-    const Eigen::Vector3d mirrored = middle - 2 * face.plane.signed_distance(middle) * face.plane.normal;
-    if ((mirrored - content.box.center()).norm() > off || share_shown(content, image, face.plane) < back) continue;
-    best = std::max(best, share_shown(image, content, face.plane));
+    const Eigen::Vector3d mirrored = middle - 2 * mirror.signed_distance(middle) * mirror.normal;
+    if ((mirrored - content.box.center()).norm() > off) continue;
+    if (share_shown(content, image, mirror, Eigen::Vector3d::Zero()) < back) continue;
+    const double share = share_shown(image, content, mirror, Eigen::Vector3d::Zero());
+    if (share > best && surplus(image, content, mirror, share) > by_chance) best = share;
   }
   return best;
 }

@@ -12,10 +12,10 @@ struct MirrorImage {
   double share = 0;              ///< of the points of what stands in it that have one where the other room has theirs
 };
 
-/// What stands in the rooms (all points 20 cm or more off the room's faces) is compared both ways: rooms that were
-/// built as each other's image are furnished differently. Of rooms with less than 300 such points nothing is said.
-/// Building and planes have one origin, z up. Cost: one pass over at most 400,000 of the points, and for each two rooms
-/// whose middles are each other's image one over theirs.
+/// What stands in the rooms (all points 20 cm or more off the room's faces) is compared both ways, and with what fits
+/// half a metre beside: rooms that were built as each other's image are furnished differently. Of rooms with less than
+/// 300 such points nothing is said. Building and planes have one origin, z up. Cost: one pass over at most 400,000 of
+/// the points, and for each two rooms whose middles are each other's image some over theirs.
 std::vector<MirrorImage> mirror_images(const Building& building, const PlanePrimitives& planes);
 
 }  // namespace atrium::layout

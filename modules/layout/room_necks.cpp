@@ -19,9 +19,9 @@ constexpr double most_squares = 1e6;
 constexpr std::int32_t none = -1;
 
 /// Cells as squares, one square of border around them.
-class Squares {
+class RoomSquares {
  public:
-  Squares(const StoreyCells& storey, const std::vector<std::size_t>& cells) : storey_(storey), cells_(cells) {
+  RoomSquares(const StoreyCells& storey, const std::vector<std::size_t>& cells) : storey_(storey), cells_(cells) {
     Eigen::AlignedBox2d box;
     for (const auto c : cells)
       for (const auto v : storey.cells[c].corners) box.extend(storey.vertices[v]);
@@ -86,7 +86,7 @@ class Squares {
     for (const std::size_t k : {i - 1, i + 1, i - width_, i + width_}) at(k);
   }
 
-  /// Squares that a disc of half a neck around them has no other than squares of cells in.
+  /// RoomSquares that a disc of half a neck around them has no other than squares of cells in.
   std::vector<bool> eroded() const {
     std::vector<bool> core(cell_.size());
     for (std::size_t i = 0; i < cell_.size(); ++i) core[i] = cell_[i] != none;
@@ -191,7 +191,7 @@ std::vector<std::vector<std::size_t>> parted_at_necks(const StoreyCells& storey,
   double area = 0;
   for (const auto c : cells) area += storey.cells[c].area;
   if (area < 2 * least_part) return {cells};
-  Squares squares(storey, cells);
+  RoomSquares squares(storey, cells);
   return squares.fine() ? squares.parts() : std::vector<std::vector<std::size_t>>{cells};
 }
 

@@ -55,6 +55,15 @@ TEST(MirrorImages, RadiatorsAtTheWallsOfEmptyRoomsAreNoImage) {
   EXPECT_TRUE(mirror_images(two_rooms(), scene.planes()).empty());
 }
 
+TEST(MirrorImages, StraysEverywhereAreNoImage) {
+  Random random(3);
+  atrium::test::Rooms scene;
+  scene.floor(0, 0, 4, 3).ceiling(0, 0, 4, 3).floor(4, 0, 8, 3).ceiling(4, 0, 8, 3);
+  for (int i = 0; i < 20000; ++i)
+    scene.stray({random.uniform(0, i % 3 == 0 ? 8 : 4), random.uniform(0, 3), random.uniform(0, 2.5)});
+  EXPECT_TRUE(mirror_images(two_rooms(), scene.planes()).empty());
+}
+
 TEST(MirrorImages, OfHardlyFurnishedRoomsNothingIsSaid) {
   EXPECT_TRUE(mirror_images(two_rooms(), furnished(0, 0.4)).empty());
   EXPECT_TRUE(mirror_images(Building{}, furnished(0)).empty());
