@@ -178,7 +178,7 @@ Region free_of(const Stretch& stretch, const std::vector<RoomSpace>& rooms, cons
   }
   for (std::size_t i = first; i < walls.size(); ++i)
     if (box.meets(boxes[i - first])) taken.push_back(walls[i].footprint);
-  return floorplan::minus(floorplan::united({stretch.outline}), floorplan::joined(taken, {}));
+  return floorplan::parted(floorplan::minus(floorplan::united({stretch.outline}), floorplan::joined(taken, {})));
 }
 
 /// Gives a crumb to the wall that it shares most of its border with, where their heights agree; false without one.
@@ -242,9 +242,9 @@ void part_storeys(const Building& building, std::vector<Wall>& walls) {
           !in_common(walls[i].low(), walls[i].high(), walls[k].low(), walls[k].high()))
         continue;
       if (!Box(walls[i].footprint.outline).meets(Box(walls[k].footprint.outline))) continue;
-      const Region below = floorplan::common({walls[i].footprint}, {walls[k].footprint});
+      const Region below = floorplan::parted(floorplan::common({walls[i].footprint}, {walls[k].footprint}));
       if (floorplan::area(below) < least_area) continue;
-      const Region beside = floorplan::minus({walls[i].footprint}, {walls[k].footprint});
+      const Region beside = floorplan::parted(floorplan::minus({walls[i].footprint}, {walls[k].footprint}));
       const double foot = walls[k].low();
       std::vector<Wall> pieces;
       for (const Region* region : {&below, &beside})

@@ -10,6 +10,7 @@ namespace {
 namespace cl = ClipperLib;
 constexpr double units = 1e7;      // per metre
 constexpr double straight = 2e-4;  // metres: corners less than this off the line of their neighbours are none
+constexpr double no_width = 2e-6;  // metres: what is narrower holds nothing together
 
 cl::Path to_path(const PlanRing& ring) {
   cl::Path path;
@@ -93,6 +94,19 @@ Region grown(const Region& region, double distance) {
 }
 
 Region closed(const Region& region, double gap) { return grown(grown(region, 0.5 * gap), -0.5 * gap); }
+
+Region parted(const Region& region) {
+  Region result;
+  for (const auto& polygon : region) {
+    const Region cores = grown({polygon}, -0.5 * no_width);
+    const Region parts = grown(cores, 0.5 * no_width);
+    if (parts.size() == 1 && parts.front().holes.size() == polygon.holes.size())
+      result.push_back(polygon);
+    else
+      result.insert(result.end(), parts.begin(), parts.end());
+  }
+  return result;
+}
 
 double area(const Region& region) {
   double sum = 0;

@@ -19,6 +19,9 @@ Region common(const Region& a, const Region& b);
 Region grown(const Region& region, double distance);
 /// Gaps narrower than `gap` closed.
 Region closed(const Region& region, double gap);
+/// Polygons whose parts hang together by a point or by a strip of no width become one polygon for each part, and rings
+/// that enclose a hole that way get it as a hole; all others stay as they are, to the bit.
+Region parted(const Region& region);
 double area(const Region& region);
 
 /// The rectangle of all points within `half_width` of the line from a to b, `beyond` longer at both ends.
