@@ -213,6 +213,14 @@ double share_at(const std::vector<float>& values, double level, double most) {
   return static_cast<double>(near) / static_cast<double>(values.size());
 }
 
+/// A door's casing stands before the wall beside the leaf.
+void leave_out_casing(std::vector<float>& side, double wall) {
+  constexpr double least = 0.01, most = 0.06;  // metres before the wall
+  const auto is_casing = [&](float d) { return d > wall + least && d < wall + most; };
+  if (2 * std::count_if(side.begin(), side.end(), is_casing) <= static_cast<std::ptrdiff_t>(side.size()))
+    std::erase_if(side, is_casing);
+}
+
 struct Judged {
   double leaf = 0, wall = 0;  ///< their levels, metres
   double confidence = 0;      ///< 0: no leaf
@@ -235,6 +243,7 @@ Judged judge(const LevelBlock& leaf, const WallLevels& levels) {
     around.insert(around.end(), sides.back().begin(), sides.back().end());
   }
   judged.wall = median(around);
+  for (auto& side : sides) leave_out_casing(side, judged.wall);
   const double step = judged.step();
   if (std::abs(step) < least_step || step > most_behind || step < -most_before) return judged;
   if (!stands(leaf) && step < least_pane_step) return judged;

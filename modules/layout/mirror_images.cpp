@@ -88,9 +88,42 @@ double surplus(const Content& shown, const Content& by, const Plane& mirror, dou
   return share - std::max(share_shown(shown, by, mirror, along), share_shown(shown, by, mirror, -along));
 }
 
+/// Share of a room's objects that stand in the same cells as the other's do, mirrored.
+double share_in_cells(const Content& shown, const Content& by, const Plane& mirror) {
+  const auto count = std::count_if(shown.objects.begin(), shown.objects.end(), [&](const Eigen::Vector3d& p) {
+    return by.cells.count(key_of(p - 2 * mirror.signed_distance(p) * mirror.normal)) > 0;
+  });
+  return static_cast<double>(count) / static_cast<double>(shown.objects.size());
+}
+
+/// How thick the wall is between a face and the other room, as that one's own face tells, metres; 0: it has none there.
+double thickness_between(const Building& building, const Plane& face, const BuildingRoom& other) {
+  constexpr double thickest = 0.8, least_cosine = 0.98;
+  double least = thickest;
+  for (const auto f : other.faces) {
+    const BuildingFace& behind = building.faces[static_cast<std::size_t>(f)];
+    if (behind.plane.normal.dot(face.normal) > -least_cosine || behind.outline.empty()) continue;
+    const double off = -face.signed_distance(building.vertices[behind.outline.front()]);
+    if (off > 0) least = std::min(least, off);
+  }
+  return least < thickest ? least : 0;
+}
+
+/// Whether the rooms are each other's image at the middle of the wall between them rather than at its face: twins, as
+/// dwellings and hotel rooms are. A mirror hangs on the face.
+bool are_twins(const Building& building, const Plane& face, const Content& content, const BuildingRoom& other,
+               const Content& image) {
+  constexpr double least = 0.06;  // metres: a thinner wall tells nothing
+  constexpr double much = 0.6;    // of what shows at the face: rows of desks are alike in more places than one
+  const double thickness = thickness_between(building, face, other);
+  if (thickness < least) return false;
+  const Plane middle{face.normal, face.offset + thickness / 2};
+  return share_in_cells(image, content, middle) > much * share_in_cells(image, content, face);
+}
+
 /// The share of one room's objects that stand in the other one, too, mirrored at the best of its walls.
 double mirrored_share(const Building& building, const BuildingRoom& room, const Content& content,
-                      const Content& image) {
+                      const BuildingRoom& other, const Content& image) {
   constexpr double off = 0.75;        // metres between the middles: an image is often cut off
   constexpr double back = 0.5;        // of the room's own objects that its image must show
   constexpr double by_chance = 0.25;  // least surplus
@@ -104,7 +137,9 @@ double mirrored_share(const Building& building, const BuildingRoom& room, const 
     if ((mirrored - content.box.center()).norm() > off) continue;
     if (share_shown(content, image, mirror, Eigen::Vector3d::Zero()) < back) continue;
     const double share = share_shown(image, content, mirror, Eigen::Vector3d::Zero());
-    if (share > best && surplus(image, content, mirror, share) > by_chance) best = share;
+    if (share > best && surplus(image, content, mirror, share) > by_chance &&
+        !are_twins(building, mirror, content, other, image))
+      best = share;
   }
   return best;
 }
@@ -121,7 +156,8 @@ std::vector<MirrorImage> mirror_images(const Building& building, const PlanePrim
     if (contents[image].objects.size() < fewest) continue;
     for (std::size_t room = 0; room < contents.size(); ++room) {
       if (contents[room].points <= contents[image].points || contents[room].objects.size() < fewest) continue;
-      const double share = mirrored_share(building, building.rooms[room], contents[room], contents[image]);
+      const double share =
+          mirrored_share(building, building.rooms[room], contents[room], building.rooms[image], contents[image]);
       if (share < least) continue;
       result.push_back({image, room, share});
       break;

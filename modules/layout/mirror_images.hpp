@@ -13,7 +13,8 @@ struct MirrorImage {
 };
 
 /// What stands in the rooms (all points 20 cm or more off the room's faces) is compared both ways, and with what fits
-/// half a metre beside: rooms that were built as each other's image are furnished differently. Of rooms with less than
+/// half a metre beside. Rooms that were built and furnished as each other's image are that at the middle of the wall
+/// between them; an image is one at the wall's face. Of rooms with less than
 /// 300 such points nothing is said. Building and planes have one origin, z up. Cost: one pass over at most 400,000 of
 /// the points, and for each two rooms whose middles are each other's image some over theirs.
 std::vector<MirrorImage> mirror_images(const Building& building, const PlanePrimitives& planes);

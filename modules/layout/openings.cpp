@@ -78,6 +78,14 @@ bool is_whole_behind(const FaceHole& leaf, const FaceEvidence& behind, const std
   return static_cast<double>(std::count(seen.begin(), seen.end(), true)) >= whole * squares.prod();
 }
 
+/// Whether what is left of the wall behind a leaf is as thick as leaves are: seen from the room that it opens into, a
+/// leaf lies in the face of its wall. Niches are not cut so deep.
+bool is_flush_behind(const ClosedLeaf& leaf, const BuildingFace& face, const FaceEvidence& behind) {
+  constexpr double thinnest = 0.02, thickest = 0.07, sure = 0.7;  // metres; confidence
+  const double left = std::abs(face.plane.signed_distance(behind.frame.origin)) - leaf.step;
+  return leaf.hole.kind == "door" && leaf.confidence >= sure && left >= thinnest && left <= thickest;
+}
+
 /// Leaves become doors, panes windows, where no hole is one already; holes that are a part of a leaf go. Those that are
 /// not clean are told of, or left closed.
 void take_leaves(const Building& building, const Evidence& evidence, const Leaves& leaves, Found& found,
@@ -103,7 +111,8 @@ void take_leaves(const Building& building, const Evidence& evidence, const Leave
                                leaf.hole.kind, size.x(), size.y(), 100 * std::abs(leaf.step),
                                leaf.step > 0 ? "behind" : "before", confidence));
       const bool whole = std::any_of(behind[f].begin(), behind[f].end(), [&](std::size_t b) {
-        return is_whole_behind(leaf.hole, evidence[b], found[b], leaves[b]);
+        return is_whole_behind(leaf.hole, evidence[b], found[b], leaves[b]) &&
+               !is_flush_behind(leaf, building.faces[f], evidence[b]);
       });
       if (whole || confidence < least) {
         left += window ? 0 : 1;

@@ -140,19 +140,14 @@ class Finder {
       }
     return both > much * all;
   }
-  /// Whether a level ceiling covers a space too low to stand in over another ceiling, whose upper side was seen: the
-  /// void over a suspended ceiling, or under a roof.
+  /// Whether a level ceiling covers a space too low to stand in over another ceiling: the void over a suspended
+  /// ceiling, or under a roof.
   bool over_a_slab(const Level& l, double ground) const {
     if (l.slanted) return false;
     return std::any_of(levels_.begin(), levels_.end(), [&](const Level& ceiling) {
       if (ceiling.up || ceiling.slanted || ceiling.height < ground + params_.min_clearance) return false;
       if (ceiling.height >= l.height || l.height - ceiling.height >= params_.min_clearance) return false;
-      if (ceiling.area < main_share * l.area || overlap(ceiling, l) < main_share * l.area) return false;
-      return std::any_of(levels_.begin(), levels_.end(), [&](const Level& top) {
-        constexpr double slack = 0.05;  // metres: models may have slabs without thickness
-        return top.up && top.area >= least_large && top.height > ceiling.height - slack &&
-               top.height < l.height - slack && overlap(top, l) >= least_large;
-      });
+      return overlap(ceiling, l) >= main_share * l.area;
     });
   }
   bool room_below(const Level& ceiling) const {

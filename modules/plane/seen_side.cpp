@@ -114,6 +114,26 @@ class SeenFrom {
     return std::min(before, behind) < nothing ? before - behind : 0;
   }
 
+  /// Whether the side is the inside of a wall or a slab: straight on a surface stands nearer than walls are thick, and
+  /// on the other side there is nothing.
+  bool is_solid(const PlanePrimitive& primitive, double side) const {
+    if (grid_ == nullptr) return false;
+    constexpr double thinnest = 0.12, thickest = 0.65;  // metres, of what has an outside
+    constexpr double many = 0.5, most = 0.8;  // of the places; behind the rest are reveals and the ends of slabs
+    const Eigen::Quaterniond turn = turn_between(Eigen::Vector3d::UnitZ(), primitive.plane.normal);
+    const std::vector<std::uint32_t> places = places_of(primitive);
+    std::size_t near = 0, open = 0;
+    for (const auto i : places) {
+      const Eigen::Vector3d from = foot(primitive, i);
+      const double thickness = way(primitive, from, side * primitive.plane.normal, side);
+      near += thickness > thinnest && thickness < thickest ? 1 : 0;
+      open += std::all_of(directions_.begin(), directions_.end(),
+                          [&](const Eigen::Vector3d& d) { return way(primitive, from, turn * d * -side, -side) == 0; });
+    }
+    const auto all = static_cast<double>(places.size());
+    return static_cast<double>(near) >= many * all && static_cast<double>(open) >= most * all;
+  }
+
   double by_normals(const PlanePrimitive& primitive) const {
     if (!cloud_.has_normals()) return 0;
     double vote = 0;
@@ -210,6 +230,7 @@ Side side_of(const PlanePrimitive& primitive, const SeenFrom& seen) {
   if (vote == 0) {
     vote = seen.by_free_space(primitive);
     if (std::abs(vote) < clear) vote += seen.by_rim(primitive);
+    if (std::abs(vote) >= undecided && seen.is_solid(primitive, vote < 0 ? -1 : 1)) vote = -vote;
     side.by = Evidence::free_space;
     if (std::abs(vote) < undecided && normals != 0) {
       vote = normals;

@@ -9,15 +9,16 @@ namespace atrium::layout::mirror_images_test {
 namespace {
 
 /// Two rooms of 4 m × 3 m that meet at x = 4, the second half as densely scanned, with a table and a shelf in each:
-/// in the second one where a mirror on the wall would show them, or moved by so much.
-PlanePrimitives furnished(double moved, double spacing = 0.04) {
+/// in the second one where a mirror on the wall would show them, or moved by so much;
+/// `wall`: the thickness of the wall between them.
+PlanePrimitives furnished(double moved, double spacing = 0.04, double wall = 0) {
   atrium::test::Rooms scene;
-  scene.floor(0, 0, 4, 3).ceiling(0, 0, 4, 3).floor(4, 0, 8, 3).ceiling(4, 0, 8, 3);
+  scene.floor(0, 0, 4, 3).ceiling(0, 0, 4, 3).floor(4 + wall, 0, 8 + wall, 3).ceiling(4 + wall, 0, 8 + wall, 3);
   const auto board = [&](double x, double y, double z, double wide, double deep) {
     for (double u = 0; u < wide; u += spacing)
       for (double v = 0; v < deep; v += spacing) {
         scene.stray({x + u, y + v, z});
-        if (static_cast<int>(u / spacing) % 2 == 0) scene.stray({8 - (x + u) - moved, y + v + moved, z});
+        if (static_cast<int>(u / spacing) % 2 == 0) scene.stray({8 + wall - (x + u) - moved, y + v + moved, z});
       }
   };
   board(1, 1, 0.74, 1.4, 0.8);
@@ -25,10 +26,10 @@ PlanePrimitives furnished(double moved, double spacing = 0.04) {
   return scene.planes();
 }
 
-Building two_rooms() {
+Building two_rooms(double wall = 0) {
   atrium::test::BoxBuilding b;
   b.room(0, 0, 4, 3, 0, 2.5);
-  b.room(4, 0, 8, 3, 0, 2.5);
+  b.room(4 + wall, 0, 8 + wall, 3, 0, 2.5);
   return b.building;
 }
 
@@ -42,6 +43,11 @@ TEST(MirrorImages, ARoomThatShowsAnotherOneMirroredIsItsImage) {
 
 TEST(MirrorImages, RoomsBuiltAsEachOthersImageAreFurnishedDifferently) {
   EXPECT_TRUE(mirror_images(two_rooms(), furnished(0.7)).empty());
+}
+
+TEST(MirrorImages, TwinsOnBothSidesOfAWallAreNoImages) {
+  for (const double wall : {0.1, 0.2, 0.4})
+    EXPECT_TRUE(mirror_images(two_rooms(wall), furnished(0, 0.04, wall)).empty()) << wall;
 }
 
 TEST(MirrorImages, RadiatorsAtTheWallsOfEmptyRoomsAreNoImage) {

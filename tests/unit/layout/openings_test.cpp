@@ -184,6 +184,34 @@ TEST(Openings, AClosedDoorIsFoundByTheStepOfItsLeaf) {
       }
 }
 
+TEST(Openings, ACasingAroundAClosedDoorIsNoPartOfTheWall) {
+  const AlignedBox2d leaf(Vector2d(1.5, 0), Vector2d(2.4, 2.05));
+  Scene scene = room_with_leaf(leaf, 0.05, true, 0.003);
+  for (const double x : {1.42, 2.4}) scatter(scene, {x, 0.02, 0}, {0.08, 0, 0}, {0, 0, 2.13}, 0.01);
+  scatter(scene, {1.42, 0.02, 2.05}, {1.06, 0, 0}, {0, 0, 0.08}, 0.01);
+  const auto layout = laid_out(scene.planes());
+  ASSERT_EQ(layout.building.openings.size(), 1U);
+  EXPECT_EQ(layout.building.openings[0].kind, "door");
+}
+
+/// Two rooms with a wall of 12 cm; a rectangle of a door's size stands `depth` behind the first one's face, and the
+/// second one's face is whole.
+Scene flush_on_the_other_side(double depth) {
+  Scene scene = room_with_leaf({Vector2d(1.5, 0), Vector2d(2.4, 2.05)}, depth, true, 0.002);
+  scene.floor(0, -3.12, 4, -0.12).ceiling(0, -3.12, 4, -0.12);
+  return scene.walls({{0, -3.12}, {4, -3.12}, {4, -0.12}, {0, -0.12}});
+}
+
+TEST(Openings, ALeafThatIsFlushWithTheOtherSideIsADoorAndANicheIsNot) {
+  const auto doors = [](const Scene& scene) {
+    const auto layout = laid_out(scene.planes());
+    return std::count_if(layout.building.openings.begin(), layout.building.openings.end(),
+                         [](const auto& opening) { return opening.kind == "door"; });
+  };
+  EXPECT_EQ(doors(flush_on_the_other_side(0.08)), 1);
+  EXPECT_EQ(doors(flush_on_the_other_side(0.04)), 0);
+}
+
 TEST(Openings, AClosedDoorOfTwoLeavesAndOneBesideACorner) {
   for (const auto& leaf :
        {AlignedBox2d(Vector2d(1, 0), Vector2d(2.8, 2.1)), AlignedBox2d(Vector2d(0.05, 0), Vector2d(0.95, 2.05))}) {
@@ -288,9 +316,10 @@ const AlignedBox2d door(Vector2d(1, 0), Vector2d(1.9, 2));
 const std::vector<Vector3d> in_both{{2, 1.4, 1.5}, {6, 1.4, 1.5}};
 
 TEST(Openings, WhatTheOtherSideOfTheWallShowsIsNoHole) {
-  // A niche: the face lacks points and its back is seen, but the other room's face is whole.
+  // A niche: the face lacks points and its back is seen, but the other room's face is whole, and too much of the wall
+  // is left for a leaf.
   Scene scene = two_rooms(door, {});
-  scatter(scene, {4.08, 1, 0}, {0, 0.9, 0}, {0, 0, 2});
+  scatter(scene, {4.04, 1, 0}, {0, 0.9, 0}, {0, 0, 2});
   const auto layout = laid_out(scene.planes());
   EXPECT_TRUE(layout.building.openings.empty());
   EXPECT_TRUE(layout.warnings->mention("what may be closed doors"));

@@ -49,6 +49,28 @@ StoreyCells scanned(const std::vector<std::string>& picture, bool ceiling = true
   for (auto& cell : storey.cells) cell.room = -1;
   return storey;
 }
+/// Two rooms with a wall of 12 cm between them that was seen from the first one only; what the second one shows over it
+/// ends there, or goes on.
+StoreyCells wall_seen_from_one_side(double cover) {
+  using Line = Arrangement::Line;
+  StoreyCells storey =
+      cells_of({0, 0}, {8.12, 4}, {Line{Eigen::Vector2d::UnitX(), -4}, Line{Eigen::Vector2d::UnitX(), -4.12}});
+  for (auto& cell : storey.cells) {
+    const double x = middle_of(storey, cell).x();
+    cell.floor_cover = cell.ceiling_cover = x > 4 && x < 4.12 ? cover : 1;
+  }
+  for (auto& edge : storey.edges) {
+    const double x = (storey.vertices[edge.from].x() + storey.vertices[edge.to].x()) / 2;
+    if (std::abs(x - 4) < 0.01) {
+      const bool left = edge.left >= 0 && middle_of(storey, storey.cells[static_cast<std::size_t>(edge.left)]).x() < 4;
+      (left ? edge.wall_left : edge.wall_right) = 1;
+    } else if (edge.left < 0 || edge.right < 0) {
+      (edge.left >= 0 ? edge.wall_left : edge.wall_right) = 1;
+    }
+  }
+  return storey;
+}
+
 /// Two rooms with a wall of 12 cm between them, of whose last metre nothing was seen but the share of a ceiling.
 StoreyCells half_hidden_wall(double ceiling) {
   using Line = Arrangement::Line;
@@ -245,6 +267,22 @@ TEST(Rooms, NichesTooSmallToBeOnesAreEvened) {
   };
   EXPECT_EQ(inside({}), 9);
   EXPECT_EQ(inside({.min_detail = 1.5}), 8);
+}
+
+TEST(Rooms, ARoomEndsBeforeTheBackOfAnotherOnesWall) {
+  for (const double cover : {0.0, 0.2, 0.4}) {
+    const CellComplex cells = decided({wall_seen_from_one_side(cover)}, {.wall_weight = 0}).cells;
+    const StoreyCells& storey = cells.storeys[0];
+    std::array<int, 3> rooms{};
+    for (const auto& cell : storey.cells) {
+      const double x = middle_of(storey, cell).x();
+      rooms.at(x < 4 ? 0 : x < 4.12 ? 1 : 2) = cell.room;
+    }
+    EXPECT_GE(rooms[0], 0) << cover;
+    EXPECT_GE(rooms[2], 0) << cover;
+    EXPECT_NE(rooms[0], rooms[2]) << cover;
+    EXPECT_EQ(rooms[1], -1) << cover;
+  }
 }
 
 }  // namespace

@@ -82,6 +82,16 @@ TEST(PlaneRegionGrowing, TurnsPlanesAwayFromACavityThatIsWiderThanTheRoomsAreFre
   }
 }
 
+// A model's solids have outer faces, too, before which there is nothing, and behind which the inner ones stand.
+TEST(PlaneRegionGrowing, TurnsTheOuterFacesOfABuildingOutwards) {
+  auto faces = box_faces({0, 0, 0}, {5, 4, 2.5}, true);
+  const auto outer = box_faces({-0.3, -0.3, -0.25}, {5.3, 4.3, 2.75}, false);
+  faces.insert(faces.end(), outer.begin(), outer.end());
+  const auto matches = match_faces(faces, grow(sample(faces, {.points = 200000, .normals = false})));
+  EXPECT_EQ(matches.size(), faces.size());
+  for (const auto& match : matches) EXPECT_LT(match.angle, 1) << "face " << match.face;
+}
+
 TEST(PlaneRegionGrowing, DerivesItsDistanceFromTheNoise) {
   const auto faces = box_faces({-2, -1.5, 0}, {2, 1.5, 2.5}, true);
   for (const double noise : {0.001, 0.008}) {
