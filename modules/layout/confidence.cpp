@@ -14,6 +14,7 @@
 #include "modules/layout/kept_rooms.hpp"
 #include "modules/layout/mirror_images.hpp"
 #include "modules/layout/room_doubts.hpp"
+#include "modules/layout/second_opinion.hpp"
 #include "modules/layout/slopes_left_out.hpp"
 #include "modules/types/building_rules.hpp"
 
@@ -183,6 +184,25 @@ void judge_mirror_images(const PlanePrimitives& planes, Building& building) {
   }
 }
 
+/// Where the rooms are others if they are found in another way, one of both is wrong. Without second rooms nothing is
+/// said.
+void judge_second(const Building& second, Building& building) {
+  constexpr double least = 0.5, enough = 0.8, unlikely = 0.6;
+  if (second.rooms.empty()) return;
+  const std::vector<SecondOpinion> opinions = second_opinions(building, second);
+  for (std::size_t r = 0; r < building.rooms.size(); ++r) {
+    const SecondOpinion& opinion = opinions[r];
+    if (opinion.shared >= enough) continue;
+    BuildingRoom& room = building.rooms[r];
+    room.confidence *= ramp(opinion.shared, least, enough, unlikely, 1);
+    room.doubts.push_back(
+        opinion.area <= 0 ? "found in another way, there is no room here"
+        : opinion.parts > 1
+            ? fmt::format("found in another way, it is {} rooms, the best of {:.1f} m2", opinion.parts, opinion.area)
+            : fmt::format("found in another way, the room here has {:.1f} m2", opinion.area));
+  }
+}
+
 [[noreturn]] void refuse(const std::string& why) {
   throw Error("the scan shows no room: " + why,
               "scan the floor or the ceiling and most of the walls around it; check that z points up and the lengths "
@@ -218,6 +238,7 @@ Confidence::Out Confidence::run(const In& in, const Params& params, Context& con
     building.rooms[r].doubts = std::move(verdict.doubts);
   }
   judge_mirror_images(planes, building);
+  if (in.second) judge_second(with_origin(*in.second, planes.cloud->origin), building);
   std::vector<bool> kept;
   std::size_t best = 0;
   for (std::size_t r = 0; r < building.rooms.size(); ++r) {

@@ -23,7 +23,8 @@ namespace atrium::layout {
 /// | another floor over an unseen one, or ceiling under one | up to 20 % of its area | 0.3 at 60 % | wrong height |
 /// | a piece of its floor without a ceiling over it, where the rest has one | up to 25 % | 0.7 at 50 % | outside |
 /// | what stands in it stands in another room, too, mirrored at a wall | below 70 % | 0.3 | images in mirrors |
-/// | another room has the same place | up to 10 % of its area | 0.2 at 50 % | rooms overlap |
+/// | rooms that were found in another way have the same place (of both together) | from 80 % | 0.6 at 50 % | rooms
+/// joined or parted | | another room has the same place | up to 10 % of its area | 0.2 at 50 % | rooms overlap |
 ///
 /// Squares of 25 cm are looked at, without openings; walls within 15 cm of their plane, floors and ceilings within 10
 /// cm. In a hall, height is less than 0.45 times the root of the area. Other floors at the height of furniture (25 to
@@ -52,6 +53,7 @@ struct Confidence {
     Input<Building> building;
     Input<Structure> structure;
     OptionalInput<Transform> transform;
+    OptionalInput<Building> second;
   };
   struct Out {
     Building building;
@@ -63,7 +65,8 @@ struct Confidence {
   static constexpr auto inputs =
       std::tuple{port<&In::building>("Closed rooms, with openings if these are known."),
                  port<&In::structure>("The planes and points that it was made from, in its frame."),
-                 port<&In::transform>("From the frame in which warnings name places to that of the building.")};
+                 port<&In::transform>("From the frame in which warnings name places to that of the building."),
+                 port<&In::second>("Rooms that were found in another way, in the building's frame (layout.surest).")};
   static constexpr auto outputs =
       std::tuple{port<&Out::building>("The rooms that are left, with confidence and doubts.")};
   static constexpr auto params = std::tuple{

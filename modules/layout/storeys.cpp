@@ -140,15 +140,26 @@ class Finder {
       }
     return both > much * all;
   }
-  /// Whether a level ceiling covers a space too low to stand in over another ceiling: the void over a suspended
-  /// ceiling, or under a roof.
+  /// Whether a level ceiling covers, for the most part, spaces too low to stand in over other ceilings: the void over
+  /// suspended ones, or under a roof.
   bool over_a_slab(const Level& l, double ground) const {
     if (l.slanted) return false;
-    return std::any_of(levels_.begin(), levels_.end(), [&](const Level& ceiling) {
-      if (ceiling.up || ceiling.slanted || ceiling.height < ground + params_.min_clearance) return false;
-      if (ceiling.height >= l.height || l.height - ceiling.height >= params_.min_clearance) return false;
-      return overlap(ceiling, l) >= main_share * l.area;
-    });
+    std::vector<Raster> lower;
+    for (const Level& c : levels_)
+      if (!c.up && !c.slanted && c.height >= ground + params_.min_clearance && c.height < l.height &&
+          l.height - c.height < params_.min_clearance)
+        lower.push_back(filled(c.primitive));
+    if (lower.empty()) return false;
+    const Raster own = filled(l.primitive);
+    int all = 0, over = 0;
+    for (int y = 0; y < own.height; ++y)
+      for (int x = 0; x < own.width; ++x) {
+        if (!own.at(x, y)) continue;
+        ++all;
+        const Eigen::Vector2d p = own.centre(x, y);
+        over += std::any_of(lower.begin(), lower.end(), [&](const Raster& r) { return r.at(p); }) ? 1 : 0;
+      }
+    return over >= main_share * all;
   }
   bool room_below(const Level& ceiling) const {
     return std::any_of(levels_.begin(), levels_.end(), [&](const Level& l) {

@@ -20,6 +20,7 @@ struct Judgement {
   double observed = 0;    ///< square metres of its faces that points lie on
   std::size_t rooms = 0;
   std::string refused;  ///< why it is no building
+  Building building;
   double confirmed() const { return confidence * observed; }
 };
 
@@ -59,10 +60,11 @@ Judgement judge(const Input<CellComplex>& cells, const Input<Structure>& structu
   Judgement result;
   try {
     auto building = input(Faces::run({cells, structure}, quiet).building);
-    const Building sure = Confidence::run({building, structure, {}}, {}, quiet).building;
+    Building sure = Confidence::run({building, structure, {}, {}}, {}, quiet).building;
     result.confidence = sure.confidence;
     result.rooms = sure.rooms.size();
     for (const auto& face : sure.faces) result.observed += face.observed * area_of(sure, face);
+    result.building = std::move(sure);
   } catch (const Error& e) {
     result.refused = e.what();
   }
@@ -74,8 +76,8 @@ Judgement judge(const Input<CellComplex>& cells, const Input<Structure>& structu
 Surest::Out Surest::run(const In& in, const Params& params, Context& context) {
   if (!same_planes(*in.structure->primitives, *in.other_structure->primitives))
     throw Error("the two proposals are made from different planes", "wire both to the node that makes the planes");
-  const Judgement first = judge(in.cells, in.structure, context);
-  const Judgement other = judge(in.other_cells, in.other_structure, context);
+  Judgement first = judge(in.cells, in.structure, context);
+  Judgement other = judge(in.other_cells, in.other_structure, context);
   const bool better = other.confirmed() > (1 + params.margin) * first.confirmed();
   const auto say = [](const Judgement& j) {
     if (!j.refused.empty()) return j.refused;
@@ -84,8 +86,11 @@ Surest::Out Surest::run(const In& in, const Params& params, Context& context) {
   };
   context.info(
       fmt::format("the {} proposal: first: {}; other: {}", better ? "other" : "first", say(first), say(other)));
-  if (better) return {in.other_cells, in.other_structure};
-  return {in.cells, in.structure};
+  Judgement& rest = better ? first : other;
+  const bool comparable = rest.confirmed() >= params.comparable * (better ? other : first).confirmed();
+  Building opinion = comparable ? std::move(rest.building) : Building{};
+  if (better) return {in.other_cells, in.other_structure, std::move(opinion)};
+  return {in.cells, in.structure, std::move(opinion)};
 }
 
 }  // namespace atrium::layout

@@ -50,21 +50,33 @@ std::uint32_t automatic_level(const MortonOrder& order) {
 }
 
 /// The noise, as the neighbourhoods of flat voxels show it: a voxel alone can cut it in half. Their median residual
-/// where voxels are fine; the lower quartile where they are coarse, since many such neighbourhoods hold both faces of a
-/// wall.
+/// where voxels are fine. Where they are coarse, many such neighbourhoods hold both faces of a wall: their lower
+/// quartile, or twice the voxels' own median residual where that is far less. (Noise that fills voxels shows in them,
+/// too: in blurred maps the quartile is twice the voxels' own median; where walls are thin, 10 times or more.)
 double noise_of(const VoxelGrid& grid, bool fine) {
   constexpr std::size_t samples = 1000;
+  constexpr std::size_t enough = 6;     // points of a voxel
+  constexpr double alone = 2, far = 4;  // times the voxels' own
   std::vector<std::uint32_t> flat;
-  for (std::uint32_t i = 0; i < grid.voxels().size(); ++i)
-    if (grid.voxels()[i].planar) flat.push_back(i);
+  std::vector<double> own;
+  for (std::uint32_t i = 0; i < grid.voxels().size(); ++i) {
+    if (!grid.voxels()[i].planar) continue;
+    flat.push_back(i);
+    if (grid.voxels()[i].moments.count >= enough) own.push_back(grid.voxels()[i].residual);
+  }
   if (flat.empty()) return 0;
   std::vector<double> residuals;
+  residuals.reserve(2 * samples);
   for (std::size_t k = 0; k < flat.size(); k += std::max<std::size_t>(1, flat.size() / samples)) {
     Moments moments = grid.voxels()[flat[k]].moments;
     grid.visit_neighbours(flat[k], [&](std::uint32_t other) { moments += grid.voxels()[other].moments; });
     residuals.push_back(std::sqrt(fit_plane(moments).variances[0]));
   }
-  return ranked(residuals, residuals.size() / (fine ? 2 : 4));
+  if (fine) return ranked(residuals, residuals.size() / 2);
+  const double around = ranked(residuals, residuals.size() / 4);
+  if (own.size() < flat.size() / 4) return around;
+  const double median_alone = ranked(own, own.size() / 2);
+  return around > far * median_alone ? alone * median_alone : around;
 }
 
 /// Half of the points that a surface of this area holds where the scan is sparse.

@@ -226,6 +226,8 @@ TEST_F(SurestOf, TheFirstIsTakenWhereBothAreAsSure) {
   const Proposal a = storeys_of(planes), b = prisms_of(*planes);
   EXPECT_EQ(surest(a, b).cells, a.cells);
   EXPECT_EQ(surest(b, a).cells, b.cells);
+  ASSERT_EQ(surest(a, b).rest.rooms.size(), 1U) << "the other one's rooms";
+  EXPECT_NEAR(surest(a, b).rest.rooms[0].area, 21, 0.1);
 }
 
 TEST_F(SurestOf, TheSurerIsTakenFromEitherPlace) {
@@ -237,6 +239,7 @@ TEST_F(SurestOf, TheSurerIsTakenFromEitherPlace) {
   const Proposal a = storeys_of(planes), b = prisms_of(*planes);
   EXPECT_EQ(surest(a, b).cells, b.cells);
   EXPECT_EQ(surest(b, a).structure, b.structure);
+  EXPECT_TRUE(surest(a, b).rest.rooms.empty()) << "what the scan confirms far less is no second opinion";
 }
 
 TEST_F(SurestOf, AProposalWithoutRoomsIsNotTaken) {
