@@ -1,5 +1,6 @@
 #include "graph/api/clocks.hpp"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -37,6 +38,11 @@ std::uint64_t resident_memory() {
   std::uint64_t pages = 0;
   statm >> pages >> pages;
   return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void give_back_memory() {
+  constexpr std::size_t much = std::size_t{64} << 20U;  // bytes
+  if (::mallinfo2().fordblks >= much) ::malloc_trim(0);
 }
 
 void reset_peak_memory() {

@@ -9,6 +9,9 @@ double process_cpu_seconds();     ///< of all threads of the process
 std::uint64_t peak_memory();      ///< highest resident memory of the process so far, bytes
 std::uint64_t resident_memory();  ///< of the process now, bytes
 
+/// Gives back to the system what the allocator keeps for later, where that is much. Thread-safe; milliseconds.
+void give_back_memory();
+
 /// Lets peak_memory() begin anew from what is resident now.
 void reset_peak_memory();
 

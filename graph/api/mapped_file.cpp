@@ -144,6 +144,10 @@ MappedFile::~MappedFile() {
   ::munmap(mapping_, size_);
 }
 
+void MappedFile::drop_pages() const {
+  if (mapping_ != nullptr) ::madvise(mapping_, size_, MADV_DONTNEED);
+}
+
 std::shared_ptr<const MappedFile::Bytes> MappedFile::read_pipe(int descriptor, std::size_t most) const {
   constexpr std::size_t block = std::size_t{1} << 20U;
   auto bytes = std::make_shared<Bytes>();

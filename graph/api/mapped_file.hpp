@@ -26,6 +26,9 @@ class MappedFile {
   const std::byte* data() const { return data_; }
   std::size_t size() const { return size_; }
   bool is_pipe() const { return buffer_ != nullptr; }
+  /// Gives back the memory that its pages take in this process (they count as resident). What is needed again comes
+  /// from the system's cache of the file, or from the disk. Thread-safe, also beside others that read.
+  void drop_pages() const;
   std::string_view text() const { return {reinterpret_cast<const char*>(data_), size_}; }
 
  private:

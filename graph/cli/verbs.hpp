@@ -65,6 +65,7 @@ Options run_options(const RunChoice& choice, Cache* cache, const std::filesystem
   options.threads = choice.threads;
   options.hashes = !choice.no_hashes;
   options.cache = cache;
+  options.keep_outputs = false;
   return options;
 }
 

@@ -20,6 +20,7 @@ struct RunOptions {
   std::filesystem::path out;  ///< the run's folder; empty: nothing is recorded, nodes write into the working folder
   int threads = 0;            ///< 0: one per core; 1: strictly one after the other
   bool hashes = true;         ///< content hashes of outputs in the manifest
+  bool keep_outputs = true;   ///< in RunResult::outputs; false: they are freed as other values are
   const std::atomic<bool>* cancel = nullptr;  ///< set it to end the run: no node is started after that
   /// What goes into the pictures of a node; empty: stamp_of() the pipeline.
   std::function<const PngStamp&(const PipelineNode& node)> stamp;

@@ -10,6 +10,15 @@
 #include "graph/run/run_threads.hpp"
 
 namespace atrium {
+namespace {
+
+/// Not after small nodes, of which there may be thousands.
+void give_back_memory_after(const NodeRecord& record) {
+  constexpr double long_node = 0.05;  // seconds
+  if (record.wall >= long_node) give_back_memory();
+}
+
+}  // namespace
 
 bool Scheduler::Ready::operator<(const Ready& other) const {
   return std::tuple(stamp, is_end, remaining, other.node) <
@@ -37,7 +46,8 @@ void Scheduler::prepare() {
   }
   for (const auto& edge : boost::make_iterator_range(boost::edges(pipeline_)))
     ++states_[boost::source(edge, pipeline_)].readers.at(pipeline_[edge].output);
-  for (const auto& output : pipeline_[whole].outputs) ++states_[output.from.node].readers.at(output.from.output);
+  if (options_.keep_outputs)
+    for (const auto& output : pipeline_[whole].outputs) ++states_[output.from.node].readers.at(output.from.output);
   for (auto n = order_.rbegin(); n != order_.rend(); ++n)
     for (const auto& edge : edges_out_of(*n, pipeline_))
       states_[*n].remaining = std::max(states_[*n].remaining, states_[boost::target(edge, pipeline_)].remaining + 1);
@@ -205,6 +215,8 @@ void Scheduler::execute(std::size_t n) {
     settle(n, outputs);
     if (ok) describe(n, outputs);
     if (ok) progress_.described(record);
+    outputs.clear();
+    give_back_memory_after(record);
     return;
   }
   if (ok) {
@@ -219,6 +231,8 @@ void Scheduler::execute(std::size_t n) {
   tell(n);
   if (ok) progress_.described(record);
   settle(n, outputs);
+  outputs.clear();
+  give_back_memory_after(record);
 }
 
 Scheduler::Inputs Scheduler::values_for(std::size_t n) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <numeric>
 #include <span>
 
@@ -81,6 +82,15 @@ void merge_columns(const Cloud& cloud, Indices indices, Cloud& result, std::size
   }
 }
 
+/// Bit by bit.
+bool has_same_points(const Cloud& a, const Cloud& b) {
+  const auto same = [](const auto& p, const auto& q) {
+    return p.size() == q.size() && (p.empty() || std::memcmp(p.data(), q.data(), p.size() * sizeof(p[0])) == 0);
+  };
+  return same(a.points, b.points) && same(a.normals, b.normals) && same(a.colours, b.colours) &&
+         same(a.labels, b.labels) && same(a.intensities, b.intensities) && same(a.source, b.source);
+}
+
 void check_wild(const PointGrid& grid, double size, Context& context) {
   const std::size_t wild = grid.order().size() - grid.inside();
   if (wild == 0) return;
@@ -115,7 +125,8 @@ VoxelGrid::Out VoxelGrid::run(const In& in, const Params& params, Context& conte
       merge_columns(cloud, Indices(grid.order()).subspan(first, last - first), result, c, scratch);
     }
   });
-  return {std::move(result)};
+  if (cells + wild == cloud.size() && has_same_points(result, cloud)) return {in.cloud};
+  return {input(std::move(result))};
 }
 
 }  // namespace atrium::filter

@@ -10,7 +10,8 @@ namespace atrium::filter {
 ///
 /// Per voxel: mean of points, colours, intensities; mean of normals, made unit again (the first point's where they
 /// cancel out); the most frequent label (the smallest of equals); the source of the point with the lowest index. Voxels
-/// come in Morton order, so what is near in space is near in memory. An empty cloud gives an empty cloud.
+/// come in Morton order, so what is near in space is near in memory. An empty cloud gives an empty cloud, and one
+/// that this would leave as it is, as io.read_scan with `voxel` gives, is handed on without a copy.
 ///
 /// The voxels span 2²⁰ sizes along each axis around the scan's middle. Wild points beyond are kept as they are, with a
 /// warning; throws Error if more than 100 points and 0.1 % of the cloud are such.
@@ -21,7 +22,7 @@ struct VoxelGrid {
     Input<Cloud> cloud;
   };
   struct Out {
-    Cloud cloud;
+    SharedOutput<Cloud> cloud;
   };
   struct Params {
     double size = 0.02;

@@ -178,6 +178,8 @@ Cloud decode_blocks(const RawGeometry& geometry, double scale, const Context& co
   cloud.origin = origin;
   std::atomic<std::size_t> not_finite = 0, bad_normals = 0, misses = 0;
   for_blocks(source, scale, origin, context, [&](std::size_t b, LocalBlock& local) {
+    constexpr std::size_t some_blocks = 64;
+    if (b % some_blocks == 0) drop_pages(geometry);  // no block is read twice
     kept[b] = local.points.size();
     not_finite += local.not_finite;
     bad_normals += local.bad_normals;

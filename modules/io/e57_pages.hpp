@@ -32,6 +32,8 @@ class E57Pages {
   std::uint64_t logical(std::uint64_t physical, const std::string& what) const;
   std::uint64_t physical(std::uint64_t logical) const { return logical / content_ * page_ + logical % content_; }
 
+  /// See MappedFile.
+  void drop_pages() const { file_->drop_pages(); }
   /// The XML section.
   std::string xml() const;
 

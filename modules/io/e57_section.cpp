@@ -45,7 +45,8 @@ E57Section::E57Section(const E57Pages& pages, const E57Scan& scan, std::vector<i
   end_ = begin_ + length;
   std::uint64_t at = pages_.logical(pages_.number<std::uint64_t>(begin_ + 16), "the data of " + scan_.label);
   if (at < begin_ + section_head || at > end_) fail(at, "the data of the section lie outside of it");
-  while (at + 4 <= end_) {
+  constexpr std::size_t some_packets = 512;  // 32 MiB at most
+  for (std::size_t walked = 1; at + 4 <= end_; ++walked) {
     const auto type = pages_.number<std::uint8_t>(at);
     const std::uint64_t packet = pages_.number<std::uint16_t>(at + 2) + std::uint64_t{1};
     if (type > empty_kind) fail(at, fmt::format("a packet of the unknown type {}", type));
@@ -53,6 +54,7 @@ E57Section::E57Section(const E57Pages& pages, const E57Scan& scan, std::vector<i
       fail(at, fmt::format("a packet of {} bytes, where the section has {} left", packet, end_ - at));
     if (type == data_kind) add_packet(at, packet);
     at += packet;
+    if (walked % some_packets == 0) pages_.drop_pages();
   }
   check_lengths();
 }

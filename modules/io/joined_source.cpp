@@ -131,6 +131,7 @@ RawGeometry joined(std::vector<RawGeometry> parts, const Context& context) {
     if (all.crs.empty()) all.crs = part.crs;
     if (!all.metres_per_unit) all.metres_per_unit = part.metres_per_unit;
     all.sensors.insert(all.sensors.end(), part.sensors.begin(), part.sensors.end());
+    all.files.insert(all.files.end(), part.files.begin(), part.files.end());
   }
   if (known < parts.size()) all.sensors.clear();
   if (known > 0 && known < parts.size())

@@ -1,19 +1,20 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <vector>
+
+#include "modules/io/piece_vector.hpp"
 
 namespace atrium::io {
 
-/// Numbers keys from 0 on in the order in which they come: a hash table with open addressing that is at most half full.
-/// At most 2³² - 2 keys; 16 to 24 bytes each.
+/// Numbers keys from 0 on in the order in which they come: a hash table with open addressing that is at most three
+/// quarters full. At most 2³² - 2 keys; 13 to 19 bytes each.
 class KeyTable {
  public:
   /// The key's number, which is size() for a new one.
   std::uint32_t add(std::uint64_t key) {
     if (!keys_.empty() && keys_[last_] == key) return last_;  // the same key often follows
-    if (2 * (keys_.size() + 1) > table_.size()) grow();
+    if (4 * (keys_.size() + 1) > 3 * table_.size()) grow();
     const std::size_t at = slot(key);
     if (table_[at] == 0) {
       keys_.push_back(key);
@@ -21,12 +22,10 @@ class KeyTable {
     }
     return last_ = table_[at] - 1;
   }
-  std::optional<std::uint32_t> find(std::uint64_t key) const {
-    const std::uint32_t entry = table_.empty() ? 0 : table_[slot(key)];
-    return entry == 0 ? std::nullopt : std::optional(entry - 1);
-  }
   std::size_t size() const { return keys_.size(); }
   std::uint64_t key(std::size_t number) const { return keys_[number]; }
+  /// Gives back what only add() needs, which must not be called again.
+  void close() { table_ = {}; }
 
  private:
   /// Of a key, or where it would be.
@@ -37,12 +36,14 @@ class KeyTable {
     return at;
   }
   void grow() {
-    table_.assign(std::max<std::size_t>(64, 2 * table_.size()), 0);
+    const std::size_t size = std::max<std::size_t>(64, 2 * table_.size());
+    table_ = {};  // not both at once
+    table_.resize(size, 0);
     for (std::size_t i = 0; i < keys_.size(); ++i) table_[slot(keys_[i])] = static_cast<std::uint32_t>(i + 1);
   }
 
   std::vector<std::uint32_t> table_;  // number plus 1; a power of two long
-  std::vector<std::uint64_t> keys_;
+  PieceVector<std::uint64_t> keys_;
   std::uint32_t last_ = 0;
 };
 

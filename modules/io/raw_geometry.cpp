@@ -68,6 +68,10 @@ void Table::attach(std::shared_ptr<Table> table, RawGeometry& geometry) {
   geometry.storage.push_back(std::move(table));
 }
 
+void drop_pages(const RawGeometry& geometry) {
+  for (const auto& file : geometry.files) file->drop_pages();
+}
+
 void require_position(const RawGeometry& geometry, std::string_view names_there) {
   for (const Role role : {Role::x, Role::y, Role::z})
     if (!geometry.column(role))

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "graph/api/mapped_file.hpp"
 #include "modules/io/concave_faces.hpp"
 #include "modules/io/scalar.hpp"
 
@@ -67,7 +68,8 @@ struct RawGeometry {
   std::size_t image_width = 0;  ///< of an image of points, row by row, as one shot of a depth camera is; 0: it is none
   bool y_up = false;            ///< files of that format usually have y up, as Cloud has it
   bool float_table = false;     ///< the columns are a table of doubles, but the file's coordinates are float32
-  std::vector<std::shared_ptr<const void>> storage;  ///< what the columns point into
+  std::vector<std::shared_ptr<const void>> storage;      ///< what the columns point into
+  std::vector<std::shared_ptr<const MappedFile>> files;  ///< that it was read from, or is read from block by block
 
   Column& column(Role role) { return columns[static_cast<std::size_t>(role)]; }
   const Column& column(Role role) const { return columns[static_cast<std::size_t>(role)]; }
@@ -88,6 +90,9 @@ class Table {
   std::vector<Role> roles_;
   std::vector<double> values_;
 };
+
+/// Gives back the memory that pages of the geometry's files take in this process: see MappedFile.
+void drop_pages(const RawGeometry& geometry);
 
 /// Throws Error unless the geometry has x, y and z. `names`: what the file does have.
 void require_position(const RawGeometry& geometry, std::string_view names);

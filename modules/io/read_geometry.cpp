@@ -148,6 +148,7 @@ RawGeometry read_geometry(const std::string& path, const Context& context) {
   if (file->size() == 0)
     throw Error(path + (file->is_pipe() ? ": nothing came through the pipe" : ": the file is empty"));
   RawGeometry geometry = read(file, context);
+  geometry.files.push_back(file);
   if (geometry.skipped_faces > 0)
     context.warn(
         fmt::format("{}: {} of fewer than three corners skipped", path, counted(geometry.skipped_faces, "face")));

@@ -9,11 +9,13 @@
 #include <cmath>
 #include <limits>
 
+#include "graph/api/clocks.hpp"
 #include "graph/api/error.hpp"
 #include "graph/api/text.hpp"
 #include "modules/io/column_source.hpp"
 #include "modules/io/decode.hpp"
 #include "modules/io/decode_source.hpp"
+#include "modules/io/morton_places.hpp"
 #include "modules/io/voxel_noise.hpp"
 #include "modules/io/voxel_sums.hpp"
 
@@ -60,49 +62,41 @@ struct KeyedBlock {
   }
 };
 
-/// Interleaves the bits of the axes as PointGrid does: those that no voxel has are left out.
-class MortonOrder {
+/// The places of keys, counted from the lowest of all voxels.
+class KeyPlaces {
  public:
-  explicit MortonOrder(const std::vector<VoxelSums>& shards) {
-    std::array<std::uint64_t, 3> high{};
+  explicit KeyPlaces(const std::vector<VoxelSums>& shards) {
     low_.fill(axis_mask);
     for (const auto& shard : shards)
       for (std::size_t v = 0; v < shard.size(); ++v)
         for (unsigned a = 0; a < 3; ++a) {
-          const std::uint64_t at = shard.key(v) >> (21 * a) & axis_mask;
+          const std::uint64_t at = along(shard.key(v), a);
           low_[a] = std::min(low_[a], at);
-          high[a] = std::max(high[a], at);
+          high_[a] = std::max(high_[a], at);
         }
+  }
+  MortonPlaces places() const {
+    std::array<unsigned, 3> bits{};
     for (unsigned a = 0; a < 3; ++a)
-      bits_[a] = high[a] < low_[a] ? 2 : std::max(2U, static_cast<unsigned>(std::bit_width(high[a] - low_[a])));
+      bits[a] = high_[a] < low_[a] ? 0 : static_cast<unsigned>(std::bit_width(high_[a] - low_[a]));
+    return MortonPlaces(bits);
   }
-  /// A voxel's place along each axis, counted from the lowest.
-  std::array<std::uint32_t, 3> place_of(std::uint64_t key) const {
-    std::array<std::uint32_t, 3> place{};
-    for (unsigned a = 0; a < 3; ++a) place[a] = static_cast<std::uint32_t>((key >> (21 * a) & axis_mask) - low_[a]);
+  VoxelPlace place(std::uint64_t key) const {
+    VoxelPlace place{};
+    for (unsigned a = 0; a < 3; ++a) place[a] = static_cast<std::uint32_t>(along(key, a) - low_[a]);
     return place;
-  }
-  std::uint64_t of(std::uint64_t key) const {
-    std::uint64_t morton = 0;
-    unsigned next = 0;
-    for (unsigned bit = 0; bit < 21; ++bit)
-      for (unsigned a = 0; a < 3; ++a) {
-        if (bit >= bits_[a]) continue;
-        const std::uint64_t at = (key >> (21 * a) & axis_mask) - low_[a];
-        morton |= (at >> bit & 1U) << next++;
-      }
-    return morton;
   }
 
  private:
-  std::array<std::uint64_t, 3> low_{};
-  std::array<unsigned, 3> bits_{};
+  static std::uint64_t along(std::uint64_t key, unsigned axis) { return key >> (21 * axis) & axis_mask; }
+
+  std::array<std::uint64_t, 3> low_{}, high_{};
 };
 
-struct VoxelPlace {
-  std::uint64_t morton;
-  std::uint32_t shard, voxel;
-  bool operator<(const VoxelPlace& other) const { return morton < other.morton; }
+/// A voxel by its number among all places and by its number in the shards, one after the other.
+struct [[gnu::packed, gnu::aligned(4)]] Voxel {
+  std::uint64_t place;
+  std::uint32_t index;
 };
 
 class Thinning {
@@ -122,8 +116,10 @@ class Thinning {
     const std::size_t blocks = source_.blocks();
     for (std::size_t first = 0; first < blocks; first += round_blocks) {
       round(first, std::min(blocks, first + round_blocks));
+      drop_pages(geometry_);  // what was read is not read again
       context_.progress(static_cast<double>(std::min(blocks, first + round_blocks)) / static_cast<double>(blocks));
     }
+    round_ = {};
     check_wild();
     Cloud cloud = joined();
     cloud.origin = origin_;
@@ -182,59 +178,98 @@ class Thinning {
                               counted(wild_count_, "point lies", "points lie"), away));
   }
 
-  Cloud joined() const {
-    const MortonOrder order(shards_);
-    std::vector<std::size_t> first(shard_count + 1, 0);
-    for (std::size_t s = 0; s < shard_count; ++s) first[s + 1] = first[s] + shards_[s].size();
-    std::vector<VoxelPlace> places(first.back());
-    context_.parallel_chunks(shard_count, 1, [&](std::size_t s, std::size_t, std::size_t) {
-      for (std::size_t v = 0; v < shards_[s].size(); ++v)
-        places[first[s] + v] = {order.of(shards_[s].key(v)), static_cast<std::uint32_t>(s),
-                                static_cast<std::uint32_t>(v)};
-    });
-    tbb::parallel_sort(places.begin(), places.end());
-    if (share_ > 0) leave_out_noise(order, places);
+  /// Columns are taken and given back one after the other: the cloud and all sums are never there at once.
+  Cloud joined() {
+    for (auto& shard : shards_) first_.push_back(first_.back() + shard.size());
+    context_.parallel_chunks(shard_count, 1, [&](std::size_t s, std::size_t, std::size_t) { shards_[s].close(); });
+    const KeyPlaces keys(shards_);
+    VoxelCounts counts{keys.places(), {}, {}};
+    std::vector<Voxel> voxels = sorted_voxels(keys, counts.places);
     Cloud cloud;
-    const auto room = [&](Role role) { return source_.has(role) ? places.size() : 0; };
-    cloud.points.resize(places.size());
-    cloud.normals.resize(room(Role::nx));
-    cloud.colours.resize(room(Role::red));
-    cloud.intensities.resize(room(Role::intensity));
-    cloud.labels.resize(room(Role::label));
-    cloud.source.resize(room(Role::source));
-    context_.parallel_for(places.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) shards_[places[i].shard].put(places[i].voxel, cloud, i);
-    });
+    take(Role::nx, voxels, cloud.normals, &VoxelSums::normal, &VoxelSums::drop_normals);
+    take(Role::red, voxels, cloud.colours, &VoxelSums::colour, &VoxelSums::drop_colours);
+    take(Role::intensity, voxels, cloud.intensities, &VoxelSums::intensity, &VoxelSums::drop_intensities);
+    take(Role::label, voxels, cloud.labels, &VoxelSums::label, &VoxelSums::drop_labels);
+    take(Role::source, voxels, cloud.source, &VoxelSums::source, &VoxelSums::drop_sources);
+    if (share_ > 0) take(Role::x, voxels, counts.points, &VoxelSums::points, nullptr);
+    take(Role::x, voxels, cloud.points, &VoxelSums::point, &VoxelSums::drop_points);
+    if (share_ > 0) {
+      counts.numbers.reserve(voxels.size());
+      for (const Voxel& voxel : voxels) counts.numbers.push_back(voxel.place);
+      voxels = {};
+      leave_out_noise(counts, cloud);
+    }
     append(wild_, cloud);
     return cloud;
   }
 
-  void leave_out_noise(const MortonOrder& order, std::vector<VoxelPlace>& places) const {
-    std::vector<VoxelCount> voxels;
-    voxels.reserve(places.size());
-    for (const auto& p : places)
-      voxels.push_back({order.place_of(shards_[p.shard].key(p.voxel)), shards_[p.shard].points(p.voxel)});
-    const std::vector<bool> noise = noise_voxels(voxels, share_, context_);
+  std::vector<Voxel> sorted_voxels(const KeyPlaces& keys, const MortonPlaces& places) {
+    std::vector<Voxel> voxels(first_.back());
+    context_.parallel_chunks(shard_count, 1, [&](std::size_t s, std::size_t, std::size_t) {
+      for (std::size_t v = 0; v < shards_[s].size(); ++v)
+        voxels[first_[s] + v] = {places.number(keys.place(shards_[s].key(v))),
+                                 static_cast<std::uint32_t>(first_[s] + v)};
+      shards_[s].drop_keys();
+    });
+    give_back_memory();
+    tbb::parallel_sort(voxels.begin(), voxels.end(), [](const Voxel& a, const Voxel& b) { return a.place < b.place; });
+    return voxels;
+  }
+
+  /// Fills a column of the cloud, if the source has it, and gives back what it was made from.
+  template <class T, class Mean>
+  void take(Role role, const std::vector<Voxel>& voxels, std::vector<T>& column, Mean mean, void (VoxelSums::*drop)()) {
+    if (!source_.has(role)) return;
+    column.resize(voxels.size());
+    context_.parallel_for(voxels.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::size_t voxel = voxels[i].index;
+        const auto s =
+            static_cast<std::size_t>(std::upper_bound(first_.begin(), first_.end(), voxel) - first_.begin()) - 1;
+        column[i] = (shards_[s].*mean)(voxel - first_[s]);
+      }
+    });
+    if (drop != nullptr)
+      for (auto& shard : shards_) (shard.*drop)();
+    give_back_memory();
+  }
+
+  void leave_out_noise(const VoxelCounts& voxels, Cloud& cloud) const {
+    const std::vector<std::uint8_t> noise = noise_voxels(voxels, share_, context_);
+    const std::size_t all = noise.size();
     std::size_t kept = 0;
     std::uint64_t points = 0;
-    for (std::size_t i = 0; i < places.size(); ++i)
-      if (noise[i])
-        points += voxels[i].points;
-      else
-        places[kept++] = places[i];
+    for (std::size_t i = 0; i < all; ++i) {
+      kept += noise[i] == 0 ? 1 : 0;
+      points += noise[i] == 0 ? 0 : voxels.points[i];
+    }
     constexpr double usual = 0.05;  // of the points: more than strays and noise are
     const double lost = static_cast<double>(points) / static_cast<double>(counts_.points);
-    const auto said = fmt::format("{} of {} voxels are left out as noise: they hold {:.2g} % of the points",
-                                  places.size() - kept, places.size(), 100 * lost);
+    const auto said = fmt::format("{} of {} voxels are left out as noise: they hold {:.2g} % of the points", all - kept,
+                                  all, 100 * lost);
     if (lost > usual)
       context_.warn(said + ", so surfaces seen from far may be among them; `voxel_share: 0` keeps all");
-    else if (kept < places.size())
+    else if (kept < all)
       context_.info(said);
     constexpr std::size_t least = 3;
-    if (kept < std::min(least, places.size()))
-      throw Error(fmt::format("{}: `voxel_share` leaves {} of {} voxels", geometry_.path, kept, places.size()),
+    if (kept < std::min(least, all))
+      throw Error(fmt::format("{}: `voxel_share` leaves {} of {} voxels", geometry_.path, kept, all),
                   "the scan is too sparse for it: a smaller share, or 0, keeps more");
-    places.resize(kept);
+    if (kept == all) return;
+    const auto keep = [&](auto& column) {
+      if (column.empty()) return;
+      std::size_t next = 0;
+      for (std::size_t i = 0; i < all; ++i)
+        if (noise[i] == 0) column[next++] = column[i];
+      column.resize(kept);
+      column.shrink_to_fit();
+    };
+    keep(cloud.points);
+    keep(cloud.normals);
+    keep(cloud.colours);
+    keep(cloud.labels);
+    keep(cloud.intensities);
+    keep(cloud.source);
   }
 
   const RawGeometry& geometry_;
@@ -243,6 +278,7 @@ class Thinning {
   const Context& context_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<VoxelSums> shards_;
+  std::vector<std::size_t> first_{0};  // index of each shard's first voxel, and how many there are in all
   std::array<KeyedBlock, round_blocks> round_;
   RecordCounts counts_;
   std::size_t wild_count_ = 0;
@@ -271,10 +307,13 @@ Cloud sample_of(const RawGeometry& geometry, const Context& context) {
   context.parallel_chunks(parts.size(), 1, [&](std::size_t k, std::size_t, std::size_t) {
     PointBlock block;
     LocalBlock local;
+    constexpr std::size_t some_blocks = 32;
+    if (k % some_blocks == 0) drop_pages(geometry);
     source.read(k * step, block);
     localise(block, source.roles(), 1, origin, local);
     parts[k].points = std::move(local.points.points);
   });
+  drop_pages(geometry);
   Cloud cloud;
   cloud.origin = origin;
   for (const auto& part : parts) cloud.points.insert(cloud.points.end(), part.points.begin(), part.points.end());

@@ -3,43 +3,53 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modules/io/key_table.hpp"
+#include "modules/io/voxel_lookup.hpp"
 
 namespace atrium::io {
 namespace {
 
-using Place = std::array<std::uint32_t, 3>;
-
-Place coarse(const Place& place, unsigned bits) { return {place[0] >> bits, place[1] >> bits, place[2] >> bits}; }
-
-/// Numbers places in the order in which they come.
-class PlaceTable {
+/// Cubes of 2ⁿ voxels that hold any, in the order of their numbers.
+class Cubes {
  public:
-  std::uint32_t add(const Place& place) { return keys_.add(key_of(place)); }
-  Place place(std::size_t number) const {
-    const std::uint64_t key = keys_.key(number);
-    return {static_cast<std::uint32_t>(key & mask), static_cast<std::uint32_t>(key >> axis_bits & mask),
-            static_cast<std::uint32_t>(key >> 2 * axis_bits)};
+  Cubes(const VoxelCounts& voxels, unsigned n)
+      : places_(voxels.places.cubes(n)),
+        left_out_(voxels.places.left_out(n)),
+        numbers_(numbers_of(voxels, left_out_)),
+        lookup_(places_, numbers_) {}
+
+  std::size_t size() const { return numbers_.size(); }
+  /// Of a voxel, by its number.
+  std::size_t index(std::uint64_t voxel) const {
+    return static_cast<std::size_t>(std::lower_bound(numbers_.begin(), numbers_.end(), number(voxel)) -
+                                    numbers_.begin());
   }
-  /// Calls work(number) for each place that is there of the 27 around one.
+  /// The same for the voxel that follows one of cube `index`, in their order.
+  std::size_t index(std::uint64_t voxel, std::size_t index) const {
+    return numbers_[index] == number(voxel) ? index : index + 1;
+  }
   template <class Work>
-  void around(const Place& place, const Work& work) const {
-    const auto first = [&](std::size_t a) { return place[a] > 0 ? place[a] - 1 : 0; };
-    for (std::uint32_t z = first(2); z <= place[2] + 1; ++z)
-      for (std::uint32_t y = first(1); y <= place[1] + 1; ++y)
-        for (std::uint32_t x = first(0); x <= place[0] + 1; ++x)
-          if (const auto number = keys_.find(key_of({x, y, z}))) work(*number);
+  void around(std::size_t index, const Work& work) const {
+    lookup_.around(places_.place(numbers_[index]), work);
   }
 
  private:
-  static constexpr unsigned axis_bits = 21;
-  static constexpr std::uint64_t mask = (std::uint64_t{1} << axis_bits) - 1;
-
-  static std::uint64_t key_of(const Place& p) {
-    return (p[0] & mask) | (p[1] & mask) << axis_bits | static_cast<std::uint64_t>(p[2] & mask) << 2 * axis_bits;
+  std::uint64_t number(std::uint64_t voxel) const { return voxel >> left_out_; }
+  static std::vector<std::uint64_t> numbers_of(const VoxelCounts& voxels, unsigned left_out) {
+    std::size_t count = 0;
+    const auto& all = voxels.numbers;
+    const auto begins = [&](std::size_t i) { return i == 0 || all[i] >> left_out != all[i - 1] >> left_out; };
+    for (std::size_t i = 0; i < all.size(); ++i) count += begins(i) ? 1 : 0;
+    std::vector<std::uint64_t> numbers;
+    numbers.reserve(count);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (begins(i)) numbers.push_back(all[i] >> left_out);
+    return numbers;
   }
 
-  KeyTable keys_;
+  MortonPlaces places_;
+  unsigned left_out_;
+  std::vector<std::uint64_t> numbers_;
+  VoxelLookup lookup_;
 };
 
 /// Points by how many points their voxel holds, in quarters of an octave.
@@ -68,74 +78,87 @@ class Histogram {
 
 class VoxelNoise {
  public:
-  VoxelNoise(const std::vector<VoxelCount>& voxels, double share, const Context& context)
+  VoxelNoise(const VoxelCounts& voxels, double share, const Context& context)
       : voxels_(voxels), share_(share), context_(context) {}
 
-  std::vector<bool> run() {
-    number_places();
-    std::vector<std::uint64_t> fullest(most_.size());
-    context_.parallel_for(fullest.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t b = begin; b < end; ++b)
-        blocks_.around(blocks_.place(b), [&](std::uint32_t i) { fullest[b] = std::max(fullest[b], most_[i]); });
-    });
-    std::vector<double> usual(histograms_.size());
-    context_.parallel_for(usual.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; ++c) {
-        Histogram all;
-        cells_.around(cells_.place(c), [&](std::uint32_t i) { all.add(histograms_[i]); });
-        usual[c] = all.median();
-      }
-    });
-    std::vector<char> noise(voxels_.size(), 0);
-    context_.parallel_for(noise.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        noise[i] = is_tail(voxels_[i], fullest[block_of_[i]]) || is_stray(voxels_[i], usual[cell_of_[i]]) ? 1 : 0;
-    });
-    return {noise.begin(), noise.end()};
+  std::vector<std::uint8_t> run() {
+    std::vector<std::uint8_t> noise(voxels_.numbers.size(), 0);
+    mark_tails(noise);
+    mark_strays(noise);
+    return noise;
   }
 
  private:
-  static constexpr unsigned block_bits = 1, cell_bits = 5;
+  /// Calls work(voxel, its cube) for all voxels.
+  template <class Work>
+  void for_voxels(const Cubes& cubes, const Work& work) const {
+    const auto& numbers = voxels_.numbers;
+    context_.parallel_for(numbers.size(), [&](std::size_t begin, std::size_t end) {
+      std::size_t cube = cubes.index(numbers[begin]);
+      for (std::size_t i = begin; i < end; ++i) work(i, cube = cubes.index(numbers[i], cube));
+    });
+  }
 
-  void number_places() {
-    block_of_.reserve(voxels_.size());
-    cell_of_.reserve(voxels_.size());
-    for (const VoxelCount& voxel : voxels_) {
-      numbers_.add(voxel.place);
-      const std::uint32_t block = block_of_.emplace_back(blocks_.add(coarse(voxel.place, block_bits)));
-      if (block == most_.size()) most_.push_back(0);
-      most_[block] = std::max(most_[block], voxel.points);
-      const std::uint32_t cell = cell_of_.emplace_back(cells_.add(coarse(voxel.place, cell_bits)));
-      if (cell == histograms_.size()) histograms_.emplace_back();
-      histograms_[cell].add(voxel.points);
+  /// Beside a surface.
+  void mark_tails(std::vector<std::uint8_t>& noise) const {
+    const Cubes blocks(voxels_, 1);
+    std::vector<std::uint32_t> most(blocks.size(), 0), fullest(blocks.size(), 0);
+    std::size_t block = 0;
+    for (std::size_t i = 0; i < noise.size(); ++i) {
+      block = blocks.index(voxels_.numbers[i], block);
+      most[block] = std::max(most[block], voxels_.points[i]);
     }
+    context_.parallel_for(fullest.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b)
+        blocks.around(b, [&](std::uint32_t i) { fullest[b] = std::max(fullest[b], most[i]); });
+    });
+    for_voxels(blocks, [&](std::size_t i, std::size_t b) {
+      const bool tail = static_cast<double>(voxels_.points[i]) < share_ * static_cast<double>(fullest[b]);
+      noise[i] = tail ? 1 : 0;
+    });
   }
 
-  bool is_tail(const VoxelCount& voxel, std::uint64_t fullest) const {
-    return static_cast<double>(voxel.points) < share_ * static_cast<double>(fullest);
-  }
-
-  bool is_stray(const VoxelCount& voxel, double usual) const {
+  /// In free space.
+  void mark_strays(std::vector<std::uint8_t>& noise) const {
     constexpr double surface = 9;  // of 27 voxels
-    const double least = share_ * surface * usual;
-    if (static_cast<double>(voxel.points) >= least) return false;
-    std::uint64_t points = 0;
-    numbers_.around(voxel.place, [&](std::uint32_t i) { points += voxels_[i].points; });
-    return static_cast<double>(points) < least;
+    constexpr unsigned cell_bits = 5;
+    const Cubes cells(voxels_, cell_bits);
+    const std::vector<double> usual = usual_points(cells);
+    const VoxelLookup lookup(voxels_.places, voxels_.numbers);
+    for_voxels(cells, [&](std::size_t i, std::size_t cell) {
+      const double least = share_ * surface * usual[cell];
+      if (noise[i] != 0 || static_cast<double>(voxels_.points[i]) >= least) return;
+      std::uint64_t points = 0;
+      lookup.around(voxels_.places.place(voxels_.numbers[i]), [&](std::uint32_t k) { points += voxels_.points[k]; });
+      noise[i] = static_cast<double>(points) < least ? 1 : 0;
+    });
   }
 
-  const std::vector<VoxelCount>& voxels_;
+  /// How many points the voxel of a usual point holds, around each cell.
+  std::vector<double> usual_points(const Cubes& cells) const {
+    std::vector<Histogram> histograms(cells.size());
+    std::size_t cell = 0;
+    for (std::size_t i = 0; i < voxels_.numbers.size(); ++i)
+      histograms[cell = cells.index(voxels_.numbers[i], cell)].add(voxels_.points[i]);
+    std::vector<double> usual(cells.size());
+    context_.parallel_for(usual.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c) {
+        Histogram all;
+        cells.around(c, [&](std::uint32_t i) { all.add(histograms[i]); });
+        usual[c] = all.median();
+      }
+    });
+    return usual;
+  }
+
+  const VoxelCounts& voxels_;
   double share_;
   const Context& context_;
-  PlaceTable numbers_, blocks_, cells_;
-  std::vector<std::uint32_t> block_of_, cell_of_;  // of a voxel
-  std::vector<std::uint64_t> most_;                // points in a voxel of a block
-  std::vector<Histogram> histograms_;              // of a cell
 };
 
 }  // namespace
 
-std::vector<bool> noise_voxels(const std::vector<VoxelCount>& voxels, double share, const Context& context) {
+std::vector<std::uint8_t> noise_voxels(const VoxelCounts& voxels, double share, const Context& context) {
   return VoxelNoise(voxels, share, context).run();
 }
 

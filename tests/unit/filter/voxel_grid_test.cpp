@@ -11,7 +11,7 @@ namespace {
 
 Cloud run(const Cloud& cloud, double size) {
   Context context;
-  return VoxelGrid::run({input(cloud)}, {size}, context).cloud;
+  return *VoxelGrid::run({input(cloud)}, {size}, context).cloud;
 }
 
 Cloud random_cloud(std::size_t count) {

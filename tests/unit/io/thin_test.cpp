@@ -19,7 +19,7 @@ class Thin : public Files {
     return ReadScan::run(params, context).cloud;
   }
   Cloud gridded(const Cloud& cloud, double size) {
-    return filter::VoxelGrid::run({input(cloud)}, {size}, context).cloud;
+    return *filter::VoxelGrid::run({input(cloud)}, {size}, context).cloud;
   }
 };
 
