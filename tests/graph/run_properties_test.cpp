@@ -87,6 +87,18 @@ RC_GTEST_PROP(RunProperties, OnlyThePipelinesOutputsOutliveTheRun, ()) {
   RC_ASSERT(Counted::alive == before);
 }
 
+RC_GTEST_PROP(RunProperties, NothingOutlivesARunThatKeepsNoOutputs, ()) {
+  auto p = random_pipeline(10);
+  const int before = Counted::alive;
+  RunOptions options;
+  options.threads = 3;
+  options.keep_outputs = false;
+  ProgressSink silent;
+  const auto result = run_pipeline(p.builder.pipeline(), options, silent);
+  RC_ASSERT(result.outputs.empty());
+  RC_ASSERT(Counted::alive == before);
+}
+
 // The most values alive at once in a serial run are those that are needed: made, and read later or being read.
 RC_GTEST_PROP(RunProperties, SerialRunsHoldLiveEdgesOnly, ()) {
   auto p = random_pipeline(0);

@@ -106,6 +106,19 @@ TEST(VoxelGrid, EmptyOnePointAndDuplicates) {
   EXPECT_EQ(run(cloud, 0.02).points, (std::vector<Eigen::Vector3f>{{1, 2, 3}}));
 }
 
+TEST(VoxelGrid, HandsOnWhatItWouldLeaveAsItIs) {
+  Cloud thin;
+  for (int i = 0; i < 5000; ++i) thin.points.emplace_back(0.05F + 0.1F * static_cast<float>(i), 0.5F, 0.5F);
+  Context context;
+  const auto in = input(thin);
+  EXPECT_EQ(VoxelGrid::run({in}, {0.1}, context).cloud, in) << "the same object, not a copy";
+  std::swap(thin.points[0], thin.points[1]);  // another order
+  const auto swapped = input(thin);
+  const auto sorted = VoxelGrid::run({swapped}, {0.1}, context).cloud;
+  EXPECT_NE(sorted, swapped);
+  EXPECT_EQ(sorted->points, in->points);
+}
+
 TEST(VoxelGrid, WildPointsAreKeptButATooWideCloudIsAnError) {
   Cloud cloud;
   cloud.points.assign(1000, {1, 2, 3});

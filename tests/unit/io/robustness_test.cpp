@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "files.hpp"
+#include "graph/api/clocks.hpp"
 #include "graph/api/mapped_file.hpp"
 #include "modules/io/read_mesh.hpp"
 #include "modules/io/read_scan.hpp"
@@ -147,6 +148,17 @@ TEST_F(Robustness, DamagedFilesAreReadOrRefused) {
     }
     file(name, whole);
   }
+}
+
+TEST_F(Robustness, PagesThatAreGivenBackAreReadAgain) {
+  constexpr std::size_t size = std::size_t{16} << 20U;
+  const MappedFile mapped(file("pages.ply", std::string(size, 'a')));
+  const auto sum = [&] { return std::count(mapped.text().begin(), mapped.text().end(), 'a'); };
+  EXPECT_EQ(sum(), size);
+  const std::uint64_t with = resident_memory();
+  mapped.drop_pages();
+  EXPECT_LT(resident_memory() + size / 2, with);
+  EXPECT_EQ(sum(), size);
 }
 
 TEST_F(Robustness, AFileThatIsCutShortWhileItIsReadIsNamed) {

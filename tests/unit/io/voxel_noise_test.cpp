@@ -4,14 +4,38 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 namespace atrium::io::voxel_noise_test {
 namespace {
 
 constexpr double share = 0.05;
 
+struct VoxelCount {
+  VoxelPlace place{};
+  std::uint32_t points = 0;
+};
+
+/// In the order of the voxels as they are given.
+std::vector<std::uint8_t> noise_of(const std::vector<VoxelCount>& voxels) {
+  VoxelCounts counts{MortonPlaces({9, 7, 8}), {}, {}};
+  std::map<std::uint64_t, std::size_t> order;
+  for (std::size_t i = 0; i < voxels.size(); ++i) order[counts.places.number(voxels[i].place)] = i;
+  EXPECT_EQ(order.size(), voxels.size());
+  for (const auto& [number, i] : order) {
+    counts.numbers.push_back(number);
+    counts.points.push_back(voxels[i].points);
+  }
+  const std::vector<std::uint8_t> sorted = noise_voxels(counts, share, Context());
+  EXPECT_EQ(sorted.size(), voxels.size());
+  std::vector<std::uint8_t> noise(voxels.size());
+  auto next = sorted.begin();
+  for (const auto& [number, i] : order) noise[i] = *next++;
+  return noise;
+}
+
 /// A floor of 60 x 60 voxels at height 10, each with so many points.
-std::vector<VoxelCount> floor_of(std::uint64_t points) {
+std::vector<VoxelCount> floor_of(std::uint32_t points) {
   std::vector<VoxelCount> voxels;
   for (std::uint32_t x = 0; x < 60; ++x)
     for (std::uint32_t y = 0; y < 60; ++y) voxels.push_back({{x, y, 10}, points});
@@ -21,10 +45,9 @@ std::vector<VoxelCount> floor_of(std::uint64_t points) {
 /// Whether this voxel, put beside the others, is noise; none of the others may be.
 bool is_noise(std::vector<VoxelCount> voxels, const VoxelCount& last) {
   voxels.push_back(last);
-  const std::vector<bool> noise = noise_voxels(voxels, share, Context());
-  EXPECT_EQ(noise.size(), voxels.size());
-  EXPECT_EQ(std::count(noise.begin(), noise.end() - 1, true), 0);
-  return noise.back();
+  const std::vector<std::uint8_t> noise = noise_of(voxels);
+  EXPECT_EQ(std::count(noise.begin(), noise.end() - 1, 1), 0);
+  return noise.back() != 0;
 }
 
 TEST(VoxelNoise, WhatTheNoisePutsBesideASurfaceIsLeftOut) {
@@ -44,8 +67,8 @@ TEST(VoxelNoise, StraysInFreeSpaceAreLeftOutAndSparseSurfacesAreNot) {
 }
 
 TEST(VoxelNoise, NothingIsNoNoise) {
-  EXPECT_TRUE(noise_voxels({}, share, Context()).empty());
-  EXPECT_EQ(noise_voxels({{{0, 0, 0}, 1}}, share, Context()), std::vector<bool>{false});
+  EXPECT_TRUE(noise_of({}).empty());
+  EXPECT_EQ(noise_of({{{0, 0, 0}, 1}}), std::vector<std::uint8_t>{0});
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ double share_near(const Cloud& a, const Cloud& b, float distance) {
 TEST(PclVoxelGrid, GivesThePointsOfOursWithinTenMicrometres) {
   const Cloud cloud = flat(100000);
   const Cloud theirs = run<VoxelGrid>(cloud, {0.1}).cloud;
-  const Cloud ours = run<filter::VoxelGrid>(cloud, {0.1}).cloud;
+  const Cloud ours = *run<filter::VoxelGrid>(cloud, {0.1}).cloud;
   EXPECT_LT(theirs.size(), cloud.size() / 2);
   // A point on the border of two voxels may fall into either.
   EXPECT_NEAR(static_cast<double>(theirs.size()), static_cast<double>(ours.size()), 0.001 * cloud.size());
@@ -98,7 +98,7 @@ TEST(PclVoxelGrid, ThinsScansThatAreTooWideForPclsNumbers) {
   for (const float far : {-300.0F, 0.0F, 10.235F, 300.0F})
     for (int i = 0; i < 10; ++i) cloud.points.emplace_back(far + 0.0001F * static_cast<float>(i), far, far);
   const Cloud thinned = run<VoxelGrid>(cloud, {0.01}).cloud;
-  const Cloud ours = run<filter::VoxelGrid>(cloud, {0.01}).cloud;
+  const Cloud ours = *run<filter::VoxelGrid>(cloud, {0.01}).cloud;
   EXPECT_EQ(thinned.size(), ours.size());
   EXPECT_EQ(share_near(ours, thinned, 1e-4F), 1);
   cloud.points.emplace_back(1e9F, 0.0F, 0.0F);
