@@ -92,7 +92,16 @@ std::vector<std::uint32_t> others(std::size_t count, const std::vector<std::uint
 
 Eigen::Vector3d good_position(const RawGeometry& geometry, double scale, std::size_t i, bool& good) {
   Eigen::Vector3d p;
-  for (int a = 0; a < 3; ++a) read_numbers(geometry.column(axes[a]), i, 1, &p[a]);
+  if (geometry.rows) {
+    const std::vector<Role>& roles = geometry.rows->roles();
+    std::vector<double> numbers(roles.size());
+    geometry.rows->read_row(i, numbers.data());
+    for (std::size_t c = 0; c < roles.size(); ++c)
+      for (int a = 0; a < 3; ++a)
+        if (roles[c] == axes[a]) p[a] = numbers[c];
+  } else {
+    for (int a = 0; a < 3; ++a) read_numbers(geometry.column(axes[a]), i, 1, &p[a]);
+  }
   p *= scale;
   good = is_good(p.x()) && is_good(p.y()) && is_good(p.z());
   return p;
@@ -127,7 +136,11 @@ Eigen::Vector3d choose_origin(const RawGeometry& geometry, double scale) {
       for (int a = 0; a < 3; ++a) sample[a].push_back(p[a]);
   } else {
     const std::size_t step = std::max<std::size_t>(1, geometry.count / wanted);
-    for (std::size_t i = 0; i < geometry.count; i += step) take(i);
+    constexpr std::size_t some_takes = 64;  // of rows, each may be in another part of the file
+    for (std::size_t i = 0; i < geometry.count; i += step) {
+      take(i);
+      if (geometry.rows && i / step % some_takes == 0) drop_pages(geometry);
+    }
     for (std::size_t i = 0; sample[0].empty() && i < geometry.count; ++i) take(i);
   }
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();

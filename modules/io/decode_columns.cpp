@@ -95,20 +95,45 @@ struct ColourValues {
   }
 };
 
+ColourValues colours_of_columns(const RawGeometry& geometry, const Context& context) {
+  std::vector<ColourValues> some((geometry.count + chunk - 1) / chunk);
+  for (const Role role : colour_roles)
+    context.parallel_chunks(geometry.count, chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
+      each_number(geometry.column(role), begin, end, [&](std::size_t, double v) { some[c].add(v); });
+    });
+  ColourValues all;
+  for (const auto& part : some) all.add(part);
+  return all;
+}
+
+ColourValues colours_of_rows(const RawGeometry& geometry, const Context& context) {
+  const RowTable& rows = *geometry.rows;
+  std::vector<Role> wanted = rows.roles();
+  for (Role& role : wanted)
+    if (std::find(std::begin(colour_roles), std::end(colour_roles), role) == std::end(colour_roles)) role = Role::none;
+  std::vector<ColourValues> some(rows.blocks());
+  context.parallel_chunks(rows.blocks(), 1, [&](std::size_t b, std::size_t, std::size_t) {
+    constexpr std::size_t some_blocks = 64;
+    if (b % some_blocks == 0) drop_pages(geometry);
+    RawGeometry parsed;
+    Table::attach(rows.read(b, wanted), parsed);
+    for (const Role role : colour_roles)
+      each_number(parsed.column(role), 0, rows.rows(b), [&](std::size_t, double v) { some[b].add(v); });
+  });
+  ColourValues all;
+  for (const auto& part : some) all.add(part);
+  return all;
+}
+
 }  // namespace
 
 double colour_factor(const RawGeometry& geometry, const Context& context) {
-  std::vector<ColourValues> some((geometry.count + chunk - 1) / chunk);
-  bool floating = false;
+  bool floating = geometry.rows != nullptr;
   for (const Role role : colour_roles) {
     const Column& column = geometry.column(role);
     floating = floating || (is_floating(column.type) && !column.whole);
-    context.parallel_chunks(geometry.count, chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
-      each_number(column, begin, end, [&](std::size_t, double v) { some[c].add(v); });
-    });
   }
-  ColourValues all;
-  for (const auto& part : some) all.add(part);
+  const ColourValues all = geometry.rows ? colours_of_rows(geometry, context) : colours_of_columns(geometry, context);
   if (all.lacking + all.below > 0)
     context.warn(fmt::format("{}: {} of the colours' values are empty, not finite or negative: they are taken for 0",
                              geometry.path, all.lacking + all.below));

@@ -47,18 +47,22 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-Lines::Lines(std::string_view text, std::size_t first_line, bool comments, const Context& context)
+Lines::Lines(std::string_view text, std::size_t first_line, bool comments, const Context& context,
+             const MappedFile* file)
     : comments_(comments), pieces_(cut(text)) {
   std::vector<std::size_t> lines(pieces_.size());
   context.parallel_for(
       pieces_.size(),
       [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t i = begin; i < end; ++i) {
           for_lines(pieces_[i].text, [&](std::string_view line) {
             ++lines[i];
             pieces_[i].rows += is_row(line, comments_) ? 1 : 0;
             return true;
           });
+          constexpr std::size_t some_pieces = 64;
+          if (file != nullptr && i % some_pieces == 0) file->drop_pages();
+        }
       },
       1);
   std::size_t row = 0;

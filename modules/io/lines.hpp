@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "graph/api/context.hpp"
+#include "graph/api/mapped_file.hpp"
 
 namespace atrium::io {
 
@@ -50,8 +51,10 @@ class Lines {
     std::size_t first_line = 1;
   };
 
-  /// `first_line`: number of the text's first line. comments: lines that begin with # or // are no rows.
-  Lines(std::string_view text, std::size_t first_line, bool comments, const Context& context);
+  /// `first_line`: number of the text's first line. comments: lines that begin with # or // are no rows. `file`: whose
+  /// text it is; its pages are given back as they are counted.
+  Lines(std::string_view text, std::size_t first_line, bool comments, const Context& context,
+        const MappedFile* file = nullptr);
 
   std::size_t rows() const { return pieces_.empty() ? 0 : pieces_.back().first_row + pieces_.back().rows; }
   std::size_t end_line() const { return end_line_; }  ///< number of the last line

@@ -68,6 +68,12 @@ void Table::attach(std::shared_ptr<Table> table, RawGeometry& geometry) {
   geometry.storage.push_back(std::move(table));
 }
 
+void load_rows(RawGeometry& geometry, const Context& context) {
+  if (!geometry.rows) return;
+  Table::attach(geometry.rows->read_all(context), geometry);
+  geometry.rows = nullptr;
+}
+
 void drop_pages(const RawGeometry& geometry) {
   for (const auto& file : geometry.files) file->drop_pages();
 }

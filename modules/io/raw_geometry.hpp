@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "graph/api/context.hpp"
 #include "graph/api/mapped_file.hpp"
 #include "modules/io/concave_faces.hpp"
 #include "modules/io/scalar.hpp"
@@ -49,6 +50,7 @@ struct Column {
 };
 
 class PointSource;
+class RowTable;
 
 /// What a reader found in a file: columns still in the file's number types, and triangles; or a source of points.
 /// decode_cloud and decode_mesh turn it into port values.
@@ -57,8 +59,10 @@ struct RawGeometry {
   std::size_t count = 0;  ///< vertices; of a source the most that it can give
   std::array<Column, role_count> columns;
   std::shared_ptr<const PointSource> source;  ///< if set, the points come from here, block by block, not from `columns`
-  std::optional<double> metres_per_unit;      ///< if the format or the file says it
-  std::string crs;                            ///< coordinate reference system as Cloud has it
+  std::shared_ptr<const RowTable>
+      rows;  ///< if set, there are no columns until load_rows(): a table that is not read yet
+  std::optional<double> metres_per_unit;                   ///< if the format or the file says it
+  std::string crs;                                         ///< coordinate reference system as Cloud has it
   std::vector<std::array<std::uint32_t, 3>> triangles;     ///< every index below `count`
   std::vector<FaceFan> fans;                               ///< triangles that are one face together
   std::vector<std::int32_t> classes, storeys, primitives;  ///< per triangle, or empty
@@ -90,6 +94,29 @@ class Table {
   std::vector<Role> roles_;
   std::vector<double> values_;
 };
+
+/// Rows of numbers of a text file, in blocks that are parsed when they are wanted, in any order and side by side.
+class RowTable {
+ public:
+  RowTable() = default;
+  virtual ~RowTable() = default;
+  RowTable(const RowTable&) = delete;
+  RowTable& operator=(const RowTable&) = delete;
+
+  virtual const std::vector<Role>& roles() const = 0;  ///< of the columns
+  virtual std::size_t blocks() const = 0;
+  virtual std::size_t rows(std::size_t block) const = 0;
+  /// The rows of a block; of columns whose role is `none` in `wanted` nothing is read. Throws Error, with file and
+  /// line.
+  virtual std::shared_ptr<Table> read(std::size_t block, const std::vector<Role>& wanted) const = 0;
+  /// One row, as read() does.
+  virtual void read_row(std::size_t row, double* to) const = 0;
+  /// All rows. Of several errors the first in the file is thrown.
+  virtual std::shared_ptr<Table> read_all(const Context& context) const = 0;
+};
+
+/// Reads the geometry's rows, if it has such, into its columns: 8 bytes a number.
+void load_rows(RawGeometry& geometry, const Context& context);
 
 /// Gives back the memory that pages of the geometry's files take in this process: see MappedFile.
 void drop_pages(const RawGeometry& geometry);

@@ -143,12 +143,13 @@ std::string why_no_scan(const std::string& path) {
   return has_rows_of_numbers(file.text()) ? "" : "no rows of numbers";
 }
 
-RawGeometry read_geometry(const std::string& path, const Context& context) {
+RawGeometry read_geometry(const std::string& path, const Context& context, Rows rows) {
   const auto file = std::make_shared<const MappedFile>(path);
   if (file->size() == 0)
     throw Error(path + (file->is_pipe() ? ": nothing came through the pipe" : ": the file is empty"));
   RawGeometry geometry = read(file, context);
   geometry.files.push_back(file);
+  if (rows == Rows::loaded) load_rows(geometry, context);
   if (geometry.skipped_faces > 0)
     context.warn(
         fmt::format("{}: {} of fewer than three corners skipped", path, counted(geometry.skipped_faces, "face")));

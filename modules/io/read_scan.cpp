@@ -160,10 +160,11 @@ ReadScan::Out ReadScan::run(const Params& params, Context& context) {
   std::vector<std::string> paths;
   paths.reserve(params.path.size());
   for (const auto& given : params.path) paths.push_back(given.path);
-  const RawGeometry geometry = read_scan_files(paths, context);
+  RawGeometry geometry = read_scan_files(paths, context);
   const std::string& path = geometry.path;
   const bool sampled = params.mesh == MeshUse::sample && !geometry.triangles.empty();
   const bool thin = params.voxel > 0 && !sampled && geometry.count > static_cast<std::size_t>(params.voxel_above);
+  if (!thin) load_rows(geometry, context);
   const auto decoded = [&](double scale) {
     if (sampled) return sample(geometry, params, scale, context);
     return thin ? thinned(geometry, scale, params.voxel, params.voxel_share, context)

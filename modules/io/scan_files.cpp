@@ -41,7 +41,7 @@ class ScanFiles {
     const fs::path place = fs::weakly_canonical(path, ignored);
     if (!ignored && fs::is_regular_file(place, ignored) && !places_.insert(place).second)
       throw Error(path + ": this file is given twice", "give each file once");
-    parts_.push_back(read_geometry(path, context_));
+    parts_.push_back(read_geometry(path, context_, Rows::left));
   }
 
   void add_folder(const fs::path& folder) {

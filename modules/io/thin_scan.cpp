@@ -114,10 +114,12 @@ class Thinning {
   Cloud run() {
     origin_ = choose_origin(geometry_, scale_);
     const std::size_t blocks = source_.blocks();
-    for (std::size_t first = 0; first < blocks; first += round_blocks) {
-      round(first, std::min(blocks, first + round_blocks));
+    for (std::size_t first = 0; first < blocks;) {
+      const std::size_t last = end_of_round(first);
+      round(first, last);
       drop_pages(geometry_);  // what was read is not read again
-      context_.progress(static_cast<double>(std::min(blocks, first + round_blocks)) / static_cast<double>(blocks));
+      context_.progress(static_cast<double>(last) / static_cast<double>(blocks));
+      first = last;
     }
     round_ = {};
     check_wild();
@@ -128,6 +130,15 @@ class Thinning {
   }
 
  private:
+  /// Some blocks that are read at once: blocks of LAZ and of text hold many more points than others.
+  std::size_t end_of_round(std::size_t first) const {
+    constexpr std::size_t some_points = 8192 * round_blocks;
+    std::size_t last = first, points = 0;
+    while (last < source_.blocks() && last - first < round_blocks && points < some_points)
+      points += source_.capacity(last++);
+    return last;
+  }
+
   void round(std::size_t first, std::size_t last) {
     context_.parallel_chunks(last - first, 1, [&](std::size_t b, std::size_t, std::size_t) {
       PointBlock block;
@@ -298,7 +309,8 @@ Cloud sample_of(const RawGeometry& geometry, const Context& context) {
   constexpr std::size_t most_points = 1'000'000;
   check_count(geometry);
   const std::unique_ptr<const ColumnSource> columns =
-      geometry.source ? nullptr : std::make_unique<const ColumnSource>(geometry, context);
+      geometry.source ? nullptr
+                      : std::make_unique<const ColumnSource>(geometry, context, ColumnSource::Wanted::positions);
   const PointSource& source = geometry.source ? *geometry.source : static_cast<const PointSource&>(*columns);
   const std::size_t blocks = source.blocks();
   const std::size_t step = std::max<std::size_t>(1, (geometry.count + most_points - 1) / most_points);
