@@ -49,7 +49,7 @@ RawGeometry read_e57(const std::shared_ptr<const MappedFile>& file, const Contex
   geometry.path = path;
   geometry.metres_per_unit = 1.0;
   geometry.crs = contents.crs;
-  const auto source = std::make_shared<const E57Source>(file, std::move(contents));
+  const auto source = std::make_shared<const E57Source>(file, std::move(contents), context);
   geometry.count = source->records();
   geometry.sensors = scanner_places(*source);
   if (!source->uneven().empty())

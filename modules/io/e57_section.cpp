@@ -32,7 +32,7 @@ void unpack(const E57Field& field, std::size_t shift, std::size_t count, const s
 
 }  // namespace
 
-E57Section::E57Section(const E57Pages& pages, const E57Scan& scan, std::vector<int> wanted)
+E57Section::E57Section(const E57Pages& pages, const E57Scan& scan, std::vector<int> wanted, const Context& context)
     : pages_(pages), scan_(scan), wanted_(std::move(wanted)) {
   const auto fail = [&](std::uint64_t at, const std::string& what) {
     throw Error(fmt::format("{}: {}: byte {}: {}", pages_.path(), scan_.label, pages_.physical(at), what));
@@ -54,7 +54,9 @@ E57Section::E57Section(const E57Pages& pages, const E57Scan& scan, std::vector<i
       fail(at, fmt::format("a packet of {} bytes, where the section has {} left", packet, end_ - at));
     if (type == data_kind) add_packet(at, packet);
     at += packet;
-    if (walked % some_packets == 0) pages_.drop_pages();
+    if (walked % some_packets != 0) continue;
+    pages_.drop_pages();
+    context.check_cancelled();
   }
   check_lengths();
 }

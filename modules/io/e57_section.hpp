@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "graph/api/context.hpp"
 #include "modules/io/e57_pages.hpp"
 #include "modules/io/e57_xml.hpp"
 
@@ -12,7 +13,7 @@ class E57Section {
  public:
   /// Walks the packets. `wanted`: the fields to be read. Throws Error, with the byte offset, for packets that
   /// contradict the section or each other, and if the streams of the wanted fields hold fewer than scan.records.
-  E57Section(const E57Pages& pages, const E57Scan& scan, std::vector<int> wanted);
+  E57Section(const E57Pages& pages, const E57Scan& scan, std::vector<int> wanted, const Context& context);
 
   /// The numbers of records first … first+count-1 of the wanted field with that index (in `wanted`), scaled. `scratch`
   /// is used again from call to call.

@@ -71,9 +71,9 @@ void scale_to(std::vector<double>& values, std::size_t size, const E57Limits& li
 
 }  // namespace
 
-E57Source::E57Source(std::shared_ptr<const MappedFile> file, E57Contents contents)
+E57Source::E57Source(std::shared_ptr<const MappedFile> file, E57Contents contents, const Context& context)
     : pages_(std::move(file)), contents_(std::move(contents)) {
-  for (const auto& scan : contents_.scans) scans_.push_back(prepared(scan));
+  for (const auto& scan : contents_.scans) scans_.push_back(prepared(scan, context));
   check_overlap();
   keep_common_roles();
   for (std::size_t s = 0; s < scans_.size(); ++s) {
@@ -86,7 +86,7 @@ E57Source::E57Source(std::shared_ptr<const MappedFile> file, E57Contents content
   }
 }
 
-E57Source::Scan E57Source::prepared(const E57Scan& scan) const {
+E57Source::Scan E57Source::prepared(const E57Scan& scan, const Context& context) const {
   Scan made;
   made.of_role.fill(-1);
   const auto want = [&](Role role, const char* name) {
@@ -114,7 +114,7 @@ E57Source::Scan E57Source::prepared(const E57Scan& scan) const {
     made.wanted.push_back(state);
   }
   made.grid = scan.field("rowIndex") >= 0 && scan.field("columnIndex") >= 0;
-  made.section = std::make_unique<E57Section>(pages_, scan, made.wanted);
+  made.section = std::make_unique<E57Section>(pages_, scan, made.wanted, context);
   return made;
 }
 

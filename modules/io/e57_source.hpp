@@ -10,7 +10,7 @@ namespace atrium::io {
 /// The points of an E57 file. What is kept, and how: read_e57.
 class E57Source : public PointSource {
  public:
-  E57Source(std::shared_ptr<const MappedFile> file, E57Contents contents);
+  E57Source(std::shared_ptr<const MappedFile> file, E57Contents contents, const Context& context);
 
   std::size_t blocks() const override { return blocks_.size(); }
   std::size_t capacity(std::size_t block) const override;
@@ -38,7 +38,7 @@ class E57Source : public PointSource {
     std::size_t count = 0;
   };
 
-  Scan prepared(const E57Scan& scan) const;
+  Scan prepared(const E57Scan& scan, const Context& context) const;
   void keep_common_roles();
   void check_overlap() const;
   void look_at_first_block(std::size_t index);

@@ -1,4 +1,7 @@
+#include <fmt/format.h>
 #include <tbb/task_arena.h>
+
+#include <map>
 
 #include "files.hpp"
 #include "modules/filter/voxel_grid.hpp"
@@ -68,6 +71,36 @@ TEST_F(Thin, GivesWhatTheVoxelGridGives) {
       EXPECT_LT(thin.size(), whole.size());
       expect_same(thin, gridded(whole, size));
     }
+  }
+}
+
+// Rows of text are parsed block by block where they are thinned, and all at once where they are not.
+TEST_F(Thin, TextOfManyBlocksGivesWhatTheVoxelGridGives) {
+  const Cloud cloud = room(60'000);
+  const std::map<std::string, std::string> names{{"bytes", "x y z n r g b"},
+                                                 {"shares", "x y z n r g b"},
+                                                 {"wide", "x y z n r g b"},
+                                                 {"none", "x y z n"}};
+  for (const auto& [kind, header] : names) {
+    SCOPED_TRACE(kind);
+    std::string text = "# points\n" + header + "\n";
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const Eigen::Vector3d p = cloud.origin + cloud.points[i].cast<double>();
+      const Colour& c = cloud.colours[i];
+      text += fmt::format("{:.4f} {:.4f} {:.4f} {}", p.x(), p.y(), p.z(), i);
+      if (kind == "bytes") text += fmt::format(" {} {} {}", c[0], c[1], c[2]);
+      if (kind == "shares") text += fmt::format(" {:.3f} {:.3f} {:.3f}", c[0] / 255.0, c[1] / 255.0, c[2] / 255.0);
+      if (kind == "wide") text += fmt::format(" {} {} {}", 257 * c[0], 257 * c[1], 257 * c[2]);
+      text += '\n';
+    }
+    EXPECT_GT(text.size(), std::size_t{2} << 20U) << "some blocks";
+    file("a.txt", text);
+    const Cloud whole = read("a.txt", 0);
+    EXPECT_EQ(whole.size(), cloud.size());
+    EXPECT_EQ(whole.colours.size(), kind == "none" ? 0 : cloud.size());
+    expect_same(read("a.txt", 0.1), gridded(whole, 0.1));
+    file("a.txt", text + "1 2 3\n");
+    EXPECT_CONTAINS(error_of([&] { read("a.txt", 0.1); }), "a.txt:60003: 3 values instead of");
   }
 }
 
