@@ -152,10 +152,14 @@ Eigen::Vector3d choose_origin(const RawGeometry& geometry, double scale) {
   return origin;
 }
 
+bool has_float_positions(const RawGeometry& geometry) {
+  return geometry.float_table || (!geometry.source && geometry.column(Role::x).type == Scalar::f32);
+}
+
 void warn_of_lost_digits(const RawGeometry& geometry, const Eigen::Vector3d& origin, double scale,
                          const Context& context) {
   constexpr double fine = 0.001;  // metres
-  if (geometry.source || (!geometry.float_table && geometry.column(Role::x).type != Scalar::f32)) return;
+  if (!has_float_positions(geometry)) return;
   double worst = 0;
   int axis = 0;
   for (int a = 0; a < 3; ++a) {  // float32 has 24 bits: far from zero the coordinates move in steps

@@ -20,6 +20,8 @@ void check_count(const RawGeometry& geometry);
 /// their numbers, georeferenced ones keep their millimetres, and stray points far away do not matter.
 Eigen::Vector3d choose_origin(const RawGeometry& geometry, double scale);
 
+/// Whether the coordinates in the file, or in one of several, are float32.
+bool has_float_positions(const RawGeometry& geometry);
 /// Warns where coordinates that are float32 in the file are so far from zero that they lost millimetres. `origin`: as
 /// choose_origin gives it.
 void warn_of_lost_digits(const RawGeometry& geometry, const Eigen::Vector3d& origin, double scale,

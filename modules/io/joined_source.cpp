@@ -7,6 +7,7 @@
 
 #include "graph/api/error.hpp"
 #include "modules/io/column_source.hpp"
+#include "modules/io/decode.hpp"
 
 namespace atrium::io {
 namespace {
@@ -129,6 +130,7 @@ RawGeometry joined(std::vector<RawGeometry> parts, const Context& context) {
     known += part.sensors.empty() ? 0 : 1;
     all.count += part.count;
     if (all.crs.empty()) all.crs = part.crs;
+    all.float_table = all.float_table || has_float_positions(part);
     if (!all.metres_per_unit) all.metres_per_unit = part.metres_per_unit;
     all.sensors.insert(all.sensors.end(), part.sensors.begin(), part.sensors.end());
     all.files.insert(all.files.end(), part.files.begin(), part.files.end());

@@ -71,7 +71,8 @@ struct RawGeometry {
   std::vector<Eigen::Vector3d> sensors;                    ///< several of them; the column `source` is an index here
   std::size_t image_width = 0;  ///< of an image of points, row by row, as one shot of a depth camera is; 0: it is none
   bool y_up = false;            ///< files of that format usually have y up, as Cloud has it
-  bool float_table = false;     ///< the columns are a table of doubles, but the file's coordinates are float32
+  bool float_table =
+      false;  ///< the numbers are doubles, but the coordinates in the file, or in one of several, float32
   std::vector<std::shared_ptr<const void>> storage;      ///< what the columns point into
   std::vector<std::shared_ptr<const MappedFile>> files;  ///< that it was read from, or is read from block by block
 

@@ -1,4 +1,6 @@
 // Several files as one scan.
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -81,6 +83,20 @@ TEST_F(Several, ThinningJoinsPointsOfAllFiles) {
   write(station(0), "b.e57");
   EXPECT_EQ(read({"a.e57"}, 0.01).size(), 20U);
   EXPECT_EQ(read({"a.e57", "b.e57"}, 0.01).size(), 20U);
+}
+
+TEST_F(Several, DigitsThatOneFileLostAreTold) {
+  const auto write_at = [&](const std::string& name, const std::string& type, double y) {
+    file(name, "ply\nformat ascii 1.0\nelement vertex 3\nproperty " + type + " x\nproperty " + type + " y\nproperty " +
+                   type + fmt::format(" z\nend_header\n0 {0} 0\n1 {0} 0\n0 {0} 1\n", y));
+  };
+  write_at("a.ply", "double", 5'400'000);
+  write_at("b.ply", "double", 5'400'001);
+  read({"a.ply", "b.ply"});
+  EXPECT_FALSE(warned("as float32 is so far from zero"));
+  write_at("b.ply", "float", 5'400'001);
+  read({"a.ply", "b.ply"});
+  EXPECT_TRUE(warned("coordinates along y are in steps of 0.5 m, as float32")) << warnings();
 }
 
 TEST_F(Several, AFolderIsTheScansInIt) {
