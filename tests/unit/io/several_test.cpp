@@ -86,15 +86,19 @@ TEST_F(Several, ThinningJoinsPointsOfAllFiles) {
 }
 
 TEST_F(Several, DigitsThatOneFileLostAreTold) {
-  const auto write_at = [&](const std::string& name, const std::string& type, double y) {
-    file(name, "ply\nformat ascii 1.0\nelement vertex 3\nproperty " + type + " x\nproperty " + type + " y\nproperty " +
-                   type + fmt::format(" z\nend_header\n0 {0} 0\n1 {0} 0\n0 {0} 1\n", y));
+  const auto write_at = [&]<class T>(const std::string& name, const std::string& type, T y) {
+    std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex 3\n";
+    for (const char axis : {'x', 'y', 'z'}) text += fmt::format("property {} {}\n", type, axis);
+    text += "end_header\n";
+    for (const T number : {T{0}, y, T{0}, T{1}, y, T{0}, T{0}, y, T{1}})
+      text.append(reinterpret_cast<const char*>(&number), sizeof(T));
+    file(name, text);
   };
-  write_at("a.ply", "double", 5'400'000);
-  write_at("b.ply", "double", 5'400'001);
+  write_at("a.ply", "double", 5.4e6);
+  write_at("b.ply", "double", 5.4e6);
   read({"a.ply", "b.ply"});
   EXPECT_FALSE(warned("as float32 is so far from zero"));
-  write_at("b.ply", "float", 5'400'001);
+  write_at("b.ply", "float", 5.4e6F);
   read({"a.ply", "b.ply"});
   EXPECT_TRUE(warned("coordinates along y are in steps of 0.5 m, as float32")) << warnings();
 }
