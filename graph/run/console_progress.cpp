@@ -134,6 +134,9 @@ std::string ConsoleProgress::running_nodes() const {
   for (const auto& [node, running] : running_) {
     text += text.empty() ? node : ", " + node;
     if (running.share > 0) text += fmt::format(" {:.0f} %", 100 * running.share);
+    const double elapsed = wall_seconds() - running.start;
+    if (running.share >= first_estimate_share && running.share < 1 && elapsed >= first_estimate_seconds)
+      text += fmt::format(" ({} left)", clock_text(elapsed / running.share - elapsed));
   }
   return text;
 }

@@ -22,6 +22,7 @@
 namespace atrium::io {
 namespace {
 
+constexpr double reading_share = 0.75;  // of the time; the rest is to join the voxels
 constexpr std::size_t shard_count = 64, round_blocks = 64;
 constexpr std::int64_t voxel_reach = std::int64_t{1} << 20U;  // voxels on either side of the origin
 constexpr std::uint64_t axis_mask = (std::uint64_t{1} << 21U) - 1, wild = ~std::uint64_t{0};
@@ -118,7 +119,7 @@ class Thinning {
       const std::size_t last = end_of_round(first);
       round(first, last);
       drop_pages(geometry_);  // what was read is not read again
-      context_.progress(static_cast<double>(last) / static_cast<double>(blocks));
+      context_.progress(reading_share * static_cast<double>(last) / static_cast<double>(blocks));
       first = last;
     }
     round_ = {};
@@ -196,6 +197,7 @@ class Thinning {
     const KeyPlaces keys(shards_);
     VoxelCounts counts{keys.places(), {}, {}};
     std::vector<Voxel> voxels = sorted_voxels(keys, counts.places);
+    context_.progress((1 + 2 * reading_share) / 3);
     Cloud cloud;
     take(Role::nx, voxels, cloud.normals, &VoxelSums::normal, &VoxelSums::drop_normals);
     take(Role::red, voxels, cloud.colours, &VoxelSums::colour, &VoxelSums::drop_colours);
@@ -204,6 +206,7 @@ class Thinning {
     take(Role::source, voxels, cloud.source, &VoxelSums::source, &VoxelSums::drop_sources);
     if (share_ > 0) take(Role::x, voxels, counts.points, &VoxelSums::points, nullptr);
     take(Role::x, voxels, cloud.points, &VoxelSums::point, &VoxelSums::drop_points);
+    context_.progress((2 + reading_share) / 3);
     if (share_ > 0) {
       counts.numbers.reserve(voxels.size());
       for (const Voxel& voxel : voxels) counts.numbers.push_back(voxel.place);
