@@ -41,7 +41,7 @@ std::uint64_t resident_memory() {
 }
 
 void give_back_memory() {
-  constexpr std::size_t much = std::size_t{160} << 20U;  // bytes
+  constexpr std::size_t much = std::size_t{96} << 20U;  // bytes
   if (::mallinfo2().fordblks >= much) ::malloc_trim(0);
 }
 

@@ -12,7 +12,7 @@
 namespace {
 
 constexpr std::size_t huge_page = std::size_t{2} << 20U;
-constexpr std::size_t large = 2 * huge_page;  // smaller blocks would lose much of their last page
+constexpr std::size_t large = 8 * huge_page;  // smaller blocks would lose too much between them
 
 void* block_of(std::size_t size) noexcept {
   if (size < large || size > static_cast<std::size_t>(-1) - huge_page) return std::malloc(size == 0 ? 1 : size);
