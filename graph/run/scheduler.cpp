@@ -13,11 +13,6 @@ namespace atrium {
 namespace {
 
 /// Not after small nodes, of which there may be thousands.
-void give_back_memory_after(const NodeRecord& record) {
-  constexpr double long_node = 0.05;  // seconds
-  if (record.wall >= long_node) give_back_memory();
-}
-
 }  // namespace
 
 bool Scheduler::Ready::operator<(const Ready& other) const {
@@ -216,7 +211,7 @@ void Scheduler::execute(std::size_t n) {
     if (ok) describe(n, outputs);
     if (ok) progress_.described(record);
     outputs.clear();
-    give_back_memory_after(record);
+    give_back_memory_of(record);
     return;
   }
   if (ok) {
@@ -232,7 +227,15 @@ void Scheduler::execute(std::size_t n) {
   if (ok) progress_.described(record);
   settle(n, outputs);
   outputs.clear();
-  give_back_memory_after(record);
+  give_back_memory_of(record);
+}
+
+void Scheduler::give_back_memory_of(const NodeRecord& record) {
+  constexpr double long_node = 0.05;  // seconds
+  if (record.wall < long_node) return;
+  memory_watch_.disturb();  // a node that has begun meanwhile does not need less by what is given back here
+  give_back_memory();
+  memory_watch_.disturb();
 }
 
 Scheduler::Inputs Scheduler::values_for(std::size_t n) const {

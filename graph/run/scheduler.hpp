@@ -100,6 +100,8 @@ class Scheduler {
   void push(std::size_t n);
   Inputs values_for(std::size_t n) const;
   void keep_outputs(std::size_t n, const std::vector<Value>& outputs);
+  /// What a long node has freed goes back to the system.
+  void give_back_memory_of(const NodeRecord& record);
   void release_inputs(std::size_t n, std::vector<Value>& garbage);
   void block(std::size_t follower, std::size_t by);
   bool pass_over(std::size_t n, std::vector<Value>& garbage);

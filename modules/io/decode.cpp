@@ -90,21 +90,53 @@ std::vector<std::uint32_t> others(std::size_t count, const std::vector<std::uint
   return kept;
 }
 
-Eigen::Vector3d good_position(const RawGeometry& geometry, double scale, std::size_t i, bool& good) {
-  Eigen::Vector3d p;
-  if (geometry.rows) {
-    const std::vector<Role>& roles = geometry.rows->roles();
-    std::vector<double> numbers(roles.size());
-    geometry.rows->read_row(i, numbers.data());
-    for (std::size_t c = 0; c < roles.size(); ++c)
-      for (int a = 0; a < 3; ++a)
-        if (roles[c] == axes[a]) p[a] = numbers[c];
-  } else {
-    for (int a = 0; a < 3; ++a) read_numbers(geometry.column(axes[a]), i, 1, &p[a]);
-  }
+Eigen::Vector3d scaled(Eigen::Vector3d p, double scale, bool& good) {
   p *= scale;
   good = is_good(p.x()) && is_good(p.y()) && is_good(p.z());
   return p;
+}
+
+Eigen::Vector3d position_in(const std::vector<Role>& roles, const double* numbers, double scale, bool& good) {
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  for (std::size_t c = 0; c < roles.size(); ++c)
+    for (int a = 0; a < 3; ++a)
+      if (roles[c] == axes[a]) p[a] = numbers[c];
+  return scaled(p, scale, good);
+}
+
+Eigen::Vector3d good_position(const RawGeometry& geometry, double scale, std::size_t i, bool& good) {
+  if (geometry.rows) {
+    std::vector<double> numbers(geometry.rows->roles().size());
+    geometry.rows->read_row(i, numbers.data());
+    return position_in(geometry.rows->roles(), numbers.data(), scale, good);
+  }
+  Eigen::Vector3d p;
+  for (int a = 0; a < 3; ++a) read_numbers(geometry.column(axes[a]), i, 1, &p[a]);
+  return scaled(p, scale, good);
+}
+
+/// The good positions of the first block of rows that has any, or the first good one of columns: at most one pass.
+std::vector<Eigen::Vector3d> first_good_positions(const RawGeometry& geometry, double scale) {
+  std::vector<Eigen::Vector3d> result;
+  if (!geometry.rows) {
+    for (std::size_t i = 0; result.empty() && i < geometry.count; ++i) {
+      bool good = false;
+      const Eigen::Vector3d p = good_position(geometry, scale, i, good);
+      if (good) result.push_back(p);
+    }
+    return result;
+  }
+  const RowTable& rows = *geometry.rows;
+  for (std::size_t b = 0; result.empty() && b < rows.blocks(); ++b) {
+    const auto table = rows.read(b, rows.roles());
+    for (std::size_t i = 0; i < rows.rows(b); ++i) {
+      bool good = false;
+      const Eigen::Vector3d p = position_in(rows.roles(), table->row(i), scale, good);
+      if (good) result.push_back(p);
+    }
+    drop_pages(geometry);
+  }
+  return result;
 }
 
 }  // namespace
@@ -141,7 +173,10 @@ Eigen::Vector3d choose_origin(const RawGeometry& geometry, double scale) {
       take(i);
       if (geometry.rows && i / step % some_takes == 0) drop_pages(geometry);
     }
-    for (std::size_t i = 0; sample[0].empty() && i < geometry.count; ++i) take(i);
+    if (sample[0].empty()) {
+      for (const auto& p : first_good_positions(geometry, scale))
+        for (int a = 0; a < 3; ++a) sample[a].push_back(p[a]);
+    }
   }
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   if (sample[0].empty()) return origin;

@@ -9,6 +9,7 @@
 
 #include "graph/api/error.hpp"
 #include "graph/api/text.hpp"
+#include "modules/io/parallel_blocks.hpp"
 
 namespace atrium::io {
 namespace {
@@ -112,7 +113,7 @@ ColourValues colours_of_rows(const RawGeometry& geometry, const Context& context
   for (Role& role : wanted)
     if (std::find(std::begin(colour_roles), std::end(colour_roles), role) == std::end(colour_roles)) role = Role::none;
   std::vector<ColourValues> some(rows.blocks());
-  context.parallel_chunks(rows.blocks(), 1, [&](std::size_t b, std::size_t, std::size_t) {
+  for_blocks(context, rows.blocks(), [&](std::size_t b) {
     constexpr std::size_t some_blocks = 64;
     if (b % some_blocks == 0) drop_pages(geometry);
     RawGeometry parsed;

@@ -1,8 +1,11 @@
 #include "modules/io/text_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "graph/api/error.hpp"
+#include "graph/api/text.hpp"
 #include "modules/io/lines.hpp"
 #include "modules/io/row_source.hpp"
 #include "modules/io/text_layout.hpp"
@@ -24,11 +27,16 @@ class TextRows : public RowTable {
     return piece.first_row + piece.rows - std::clamp(layout_.first_row, piece.first_row, piece.first_row + piece.rows);
   }
   std::shared_ptr<Table> read(std::size_t block, const std::vector<Role>& wanted) const override {
+    const Lines::Piece& piece = lines_.pieces()[block];
     auto table = std::make_shared<Table>(rows(block), wanted);
     std::size_t next = 0;
-    lines_.rows_of(block, layout_.first_row, lines_.rows(), [&](const Row& row) {
+    lines_.rows_of(block, layout_.first_row, piece.first_row + piece.rows, [&](const Row& row) {
       read_numbers(file_->path(), row, layout_.dialect, wanted, table->row(next++));
     });
+    if (next != rows(block))
+      throw Error(fmt::format("{}:{}: {} follow here where {} were counted: the file was changed while it was read",
+                              file_->path(), piece.first_line, counted(next, "row"), rows(block)),
+                  "read it again when nobody writes to it");
     return table;
   }
   void read_row(std::size_t row, double* to) const override {

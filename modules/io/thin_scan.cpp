@@ -16,6 +16,7 @@
 #include "modules/io/decode.hpp"
 #include "modules/io/decode_source.hpp"
 #include "modules/io/morton_places.hpp"
+#include "modules/io/parallel_blocks.hpp"
 #include "modules/io/voxel_noise.hpp"
 #include "modules/io/voxel_sums.hpp"
 
@@ -141,7 +142,7 @@ class Thinning {
   }
 
   void round(std::size_t first, std::size_t last) {
-    context_.parallel_chunks(last - first, 1, [&](std::size_t b, std::size_t, std::size_t) {
+    for_blocks(context_, last - first, [&](std::size_t b) {
       PointBlock block;
       source_.read(first + b, block);
       localise(block, source_.roles(), scale_, origin_, round_[b].local);

@@ -187,15 +187,17 @@ void judge_mirror_images(const PlanePrimitives& planes, Building& building) {
 /// Where the rooms are others if they are found in another way, one of both is wrong. Without second rooms nothing is
 /// said.
 void judge_second(const Building& second, Building& building) {
-  constexpr double least = 0.5, enough = 0.8, unlikely = 0.6;
+  constexpr double least = 0.5, enough = 0.8, unlikely = 0.6, worth_a_word = 0.9;
   if (second.rooms.empty()) return;
   const std::vector<SecondOpinion> opinions = second_opinions(building, second);
   for (std::size_t r = 0; r < building.rooms.size(); ++r) {
     const SecondOpinion& opinion = opinions[r];
-    if (opinion.shared >= enough) continue;
+    const double share = ramp(opinion.shared, least, enough, unlikely, 1);
     BuildingRoom& room = building.rooms[r];
-    room.confidence *= ramp(opinion.shared, least, enough, unlikely, 1);
-    room.doubts.push_back(
+    room.confidence *= share;
+    if (share >= worth_a_word) continue;
+    room.doubts.insert(
+        room.doubts.begin(),
         opinion.area <= 0 ? "found in another way, there is no room here"
         : opinion.parts > 1
             ? fmt::format("found in another way, it is {} rooms, the best of {:.1f} m2", opinion.parts, opinion.area)

@@ -23,8 +23,8 @@ namespace atrium::layout {
 /// | another floor over an unseen one, or ceiling under one | up to 20 % of its area | 0.3 at 60 % | wrong height |
 /// | a piece of its floor without a ceiling over it, where the rest has one | up to 25 % | 0.7 at 50 % | outside |
 /// | what stands in it stands in another room, too, mirrored at a wall | below 70 % | 0.3 | images in mirrors |
-/// | rooms that were found in another way have the same place (of both together) | from 80 % | 0.6 at 50 % | rooms
-/// joined or parted | | another room has the same place | up to 10 % of its area | 0.2 at 50 % | rooms overlap |
+/// | rooms found in another way share its place (of both together) | from 80 % | 0.6 at 50 % | joined or parted |
+/// | another room has the same place | up to 10 % of its area | 0.2 at 50 % | rooms overlap |
 ///
 /// Squares of 25 cm are looked at, without openings; walls within 15 cm of their plane, floors and ceilings within 10
 /// cm. In a hall, height is less than 0.45 times the root of the area. Other floors at the height of furniture (25 to

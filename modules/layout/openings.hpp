@@ -25,8 +25,8 @@ namespace atrium::layout {
 /// - Closed doors, whose leaf hides what is behind it, are rectangles of a door's size on the wall's foot that stand 2
 ///   to 16 cm behind the wall around them, or 2 to 6 cm before it, with a clean rim (layout/closed_leaves.hpp); blinds
 ///   and panes above a sill likewise, 3 cm behind at least, in outer walls only. They are no doors if the wall is whole
-///   on its other side. The log names each with its step and a confidence; those below 0.7 are warned of, those below
-///   0.5 are left closed, with a warning.
+///   on its other side, unless what is left of it there is as thick as a leaf (2 to 7 cm). The log names each with its
+///   step and a confidence; those below 0.7 are warned of, those below 0.5 are left closed, with a warning.
 /// - What begins within sill_height over its face's foot, or hides its foot and joins two rooms or has a leaf, is a
 ///   door and reaches the foot; wider than max_door_width it is a passage. Lower than min_door_height, it is
 ///   warned of; it is left out, with a warning, if it is lower than 1 m or less than 0.6 m wide, too. One that joins no

@@ -181,16 +181,15 @@ std::vector<Room> connected(const StoreyCells& storey, std::size_t index, const 
   return rooms;
 }
 
-std::vector<Room> without_wall_bodies(const StoreyCells& storey, std::size_t index, std::vector<Room> rooms) {
+/// Takes cells in walls between rooms out of the inside.
+void leave_out_wall_bodies(const StoreyCells& storey, const std::vector<Room>& rooms, std::vector<bool>& inside) {
   std::vector<std::int32_t> room_of_cell(storey.cells.size(), -1);
   for (std::size_t r = 0; r < rooms.size(); ++r)
     for (const auto cell : rooms[r].cells) room_of_cell[cell] = static_cast<std::int32_t>(r);
+  const std::vector<std::int32_t> before = room_of_cell;
   clear_wall_bodies(storey, room_of_cell);
-  for (auto& room : rooms) {
-    std::erase_if(room.cells, [&](std::size_t cell) { return room_of_cell[cell] < 0; });
-    room = room_of(storey, index, std::move(room.cells));
-  }
-  return rooms;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    if (before[i] >= 0 && room_of_cell[i] < 0) inside[i] = false;
 }
 
 /// Parts of the outside that one room surrounds, and around which hardly a wall was seen, belong to it: a column shows
@@ -247,7 +246,8 @@ Rooms::Out Rooms::run(const In& in, const Params& params, Context& context) {
     for (auto& cell : storey.cells) cell.room = -1;
     auto inside = Energy(storey, params).solve();
     level_details(storey, params.min_detail, inside);
-    auto found = without_wall_bodies(storey, s, connected(storey, s, inside));
+    leave_out_wall_bodies(storey, connected(storey, s, inside), inside);
+    auto found = connected(storey, s, inside);
     fill_islands(storey, params.min_island, found);
     rooms.insert(rooms.end(), found.begin(), found.end());
   }

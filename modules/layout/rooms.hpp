@@ -20,7 +20,8 @@ namespace atrium::layout {
 ///   the wall goes on, hidden by what stands before it.
 ///
 /// Rooms are what hangs together, but not through a wall so thin that its two faces share a line, nor through a neck of
-/// less than 40 cm (parted_at_necks); a room of less than
+/// less than 40 cm (parted_at_necks); the inside of a wall between two rooms is in none (clear_wall_bodies). A room of
+/// less than
 /// min_area is outside, and one with less than min_cover of its area seen: of each cell counts what covers most of it,
 /// floor, ceiling or points between them. Rooms are numbered by falling area, through all storeys.
 ///

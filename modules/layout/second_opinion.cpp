@@ -26,10 +26,14 @@ std::vector<Place> places_of(const Building& building) {
       place.box.extend(place.polygon.outline.back());
       z += p.z();
     }
+    for (const auto& hole : room.holes) {
+      PlanRing& ring = place.polygon.holes.emplace_back();
+      for (const auto& p : hole) ring.emplace_back(building.origin.head<2>() + p.head<2>());
+    }
     place.low = building.origin.z() + z / static_cast<double>(std::max<std::size_t>(1, room.outline.size()));
     place.high = place.low + room.height;
     place.polygon = overlay::corrected(place.polygon);
-    place.area = room.outline.size() < 3 ? 0 : overlay::area(place.polygon);
+    place.area = room.outline.size() < 3 ? 0 : overlay::area(std::vector{place.polygon});
     result.push_back(std::move(place));
   }
   return result;

@@ -144,10 +144,12 @@ class Finder {
   /// suspended ones, or under a roof.
   bool over_a_slab(const Level& l, double ground) const {
     if (l.slanted) return false;
+    const Eigen::AlignedBox2d box(footprints_[l.primitive].raster.low, footprints_[l.primitive].raster.high());
     std::vector<Raster> lower;
     for (const Level& c : levels_)
       if (!c.up && !c.slanted && c.height >= ground + params_.min_clearance && c.height < l.height &&
-          l.height - c.height < params_.min_clearance)
+          l.height - c.height < params_.min_clearance && c.area >= params_.min_area && is_wide(c) &&
+          box.intersects({footprints_[c.primitive].raster.low, footprints_[c.primitive].raster.high()}))
         lower.push_back(filled(c.primitive));
     if (lower.empty()) return false;
     const Raster own = filled(l.primitive);

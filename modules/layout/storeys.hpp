@@ -14,7 +14,8 @@ namespace atrium::layout {
 ///   it is furniture. Floors are the up-facing planes of at least min_area and min_width up to max_step over it, and
 ///   those of half of its area with room to stand above.
 /// - Ceilings are down-facing planes of at least min_area and min_width, level ones min_clearance or more over the
-///   main floor, slanted ones that rise to that height.
+///   main floor, slanted ones that rise to that height. One that lies, for the most part, less than min_clearance over
+///   others is none: the void over suspended ceilings or under a roof.
 /// - Walls are all upright planes of at least min_wall_area that are min_wall_length long: the sides of cupboards too.
 ///   A wall stands in the storey that it overlaps most.
 ///

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "modules/layout/coverage.hpp"
-
 namespace atrium::layout {
 namespace {
 
@@ -11,12 +9,7 @@ constexpr double thickest = 0.3;  // metres
 
 class Bodies {
  public:
-  Bodies(const StoreyCells& storey, std::vector<std::int32_t>& rooms)
-      : storey_(storey), rooms_(rooms), edges_of_(storey.cells.size()) {
-    for (std::size_t e = 0; e < storey.edges.size(); ++e)
-      for (const auto cell : {storey.edges[e].left, storey.edges[e].right})
-        if (cell >= 0) edges_of_[static_cast<std::size_t>(cell)].push_back(e);
-  }
+  Bodies(const StoreyCells& storey, std::vector<std::int32_t>& rooms) : storey_(storey), rooms_(rooms) {}
 
   void clear() {
     constexpr double mostly = 0.5;  // of an edge's length that is a wall
@@ -24,8 +17,8 @@ class Bodies {
     for (const auto& edge : storey_.edges) {
       const std::int32_t left = room_of(edge.left), right = room_of(edge.right);
       if (left < 0 || right < 0 || left == right) continue;
-      if (edge.wall_left > mostly) collect(edge, edge.right, cells);
-      if (edge.wall_right > mostly) collect(edge, edge.left, cells);
+      if (edge.wall_left > mostly && edge.wall_right <= mostly) collect(edge, edge.right, cells);
+      if (edge.wall_right > mostly && edge.wall_left <= mostly) collect(edge, edge.left, cells);
     }
     for (const auto cell : cells) rooms_[cell] = -1;
   }
@@ -64,7 +57,7 @@ class Bodies {
           !is_unseen(cell) || !is_behind(cell, from, way / length, length))
         continue;
       seen.push_back(index);
-      for (const auto e : edges_of_[index]) {
+      for (const auto e : cell.edges) {
         const CellEdge& edge = storey_.edges[e];
         if (&edge == &wall || edge.left < 0 || edge.right < 0) continue;
         open.push_back(static_cast<std::size_t>(edge.left) == index ? static_cast<std::size_t>(edge.right)
@@ -76,7 +69,6 @@ class Bodies {
 
   const StoreyCells& storey_;
   std::vector<std::int32_t>& rooms_;
-  std::vector<std::vector<std::size_t>> edges_of_;
 };
 
 }  // namespace

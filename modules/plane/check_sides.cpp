@@ -17,8 +17,8 @@ namespace {
 constexpr double level_cosine = 0.9994;  // of 2° from z
 constexpr double upright_sine = 0.1;     // a smaller z of the normal
 
-bool is_level(const PlanePrimitive& p) { return std::abs(p.plane.normal.z()) >= level_cosine; }
-bool is_upright(const PlanePrimitive& p) { return std::abs(p.plane.normal.z()) <= upright_sine; }
+bool lies_level(const PlanePrimitive& p) { return std::abs(p.plane.normal.z()) >= level_cosine; }
+bool stands_upright(const PlanePrimitive& p) { return std::abs(p.plane.normal.z()) <= upright_sine; }
 
 struct LevelPlane {
   std::size_t primitive = 0;
@@ -31,7 +31,7 @@ std::vector<LevelPlane> level_planes(const PlanePrimitives& planes) {
   std::vector<LevelPlane> result;
   for (std::size_t i = 0; i < planes.primitives.size(); ++i) {
     const PlanePrimitive& p = planes.primitives[i];
-    if (p.inliers.empty() || !is_level(p)) continue;
+    if (p.inliers.empty() || !lies_level(p)) continue;
     double height = 0;
     for (const auto k : p.inliers) height += static_cast<double>(planes.cloud->points[k].z());
     const auto points = static_cast<double>(p.inliers.size());
@@ -40,9 +40,20 @@ std::vector<LevelPlane> level_planes(const PlanePrimitives& planes) {
   return result;
 }
 
+using Boxes = std::vector<Eigen::AlignedBox3f>;
+
+/// Of the points of each upright plane; empty for others.
+Boxes boxes_of_walls(const PlanePrimitives& planes) {
+  Boxes boxes(planes.primitives.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    if (stands_upright(planes.primitives[i]))
+      for (const auto k : planes.primitives[i].inliers) boxes[i].extend(planes.cloud->points[k]);
+  return boxes;
+}
+
 /// Of the points of upright planes over and under a level plane, the share on the side that it does not look to; 0
 /// if there are none.
-double walls_behind(const PlanePrimitives& planes, const LevelPlane& own) {
+double walls_behind(const PlanePrimitives& planes, const LevelPlane& own, const Boxes& walls) {
   constexpr float around = 0.1F;                    // metres: of the walls from its bounding box
   constexpr float nearest = 0.1F, furthest = 1.0F;  // metres: of a wall's points from its height
   const auto& points = planes.cloud->points;
@@ -50,11 +61,14 @@ double walls_behind(const PlanePrimitives& planes, const LevelPlane& own) {
   for (const auto k : planes.primitives[own.primitive].inliers) box.extend(points[k].head<2>());
   box.min().array() -= around;
   box.max().array() += around;
+  const auto height = static_cast<float>(own.height);
+  const Eigen::AlignedBox3f near(Eigen::Vector3f(box.min().x(), box.min().y(), height - furthest),
+                                 Eigen::Vector3f(box.max().x(), box.max().y(), height + furthest));
   std::size_t over = 0, under = 0;
-  for (const auto& p : planes.primitives) {
-    if (!is_upright(p)) continue;
-    for (const auto k : p.inliers) {
-      const float off = points[k].z() - static_cast<float>(own.height);
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    if (!walls[i].intersects(near)) continue;
+    for (const auto k : planes.primitives[i].inliers) {
+      const float off = points[k].z() - height;
       if (std::abs(off) < nearest || std::abs(off) > furthest || !box.contains(points[k].head<2>())) continue;
       ++(off > 0 ? over : under);
     }
@@ -68,7 +82,7 @@ class Levels {
  public:
   explicit Levels(const PlanePrimitives& planes) {
     for (const auto& p : planes.primitives) {
-      if (p.inliers.empty() || !is_level(p)) continue;
+      if (p.inliers.empty() || !lies_level(p)) continue;
       for (const auto k : p.inliers) {
         const Eigen::Vector3f& point = planes.cloud->points[k];
         Heights& heights = squares_[key(point.head<2>().cast<double>())];
@@ -116,7 +130,7 @@ class Walls {
  public:
   explicit Walls(const PlanePrimitives& planes) {
     for (std::size_t i = 0; i < planes.primitives.size(); ++i) {
-      if (!is_upright(planes.primitives[i])) continue;
+      if (!stands_upright(planes.primitives[i])) continue;
       for (const auto k : planes.primitives[i].inliers) {
         auto& known = cubes_[key(planes.cloud->points[k].cast<double>())];
         if (known.empty() || known.back() != i) known.push_back(static_cast<std::uint32_t>(i));
@@ -169,6 +183,7 @@ void turn(Plane& plane) { plane = {-plane.normal, -plane.offset}; }
 std::size_t turn_levels(PlanePrimitives& planes, const CheckSides::Params& params, const Context& context) {
   constexpr double mostly = 0.8;  // of the walls' points around
   const std::vector<LevelPlane> all = level_planes(planes);
+  const Boxes walls = boxes_of_walls(planes);
   std::vector<std::size_t> wrong;
   for (const LevelPlane& own : all) {
     context.check_cancelled();
@@ -176,7 +191,7 @@ std::size_t turn_levels(PlanePrimitives& planes, const CheckSides::Params& param
     for (const LevelPlane& p : all)
       if (p.primitive != own.primitive && std::abs(p.height - own.height) < params.apart)
         (p.up == own.up ? same : other) += p.points;
-    if (other >= params.majority * same && walls_behind(planes, own) >= mostly) wrong.push_back(own.primitive);
+    if (other >= params.majority * same && walls_behind(planes, own, walls) >= mostly) wrong.push_back(own.primitive);
   }
   for (const auto i : wrong) turn(planes.primitives[i].plane);
   return wrong.size();
@@ -188,7 +203,8 @@ std::size_t turn_walls(PlanePrimitives& planes, const CheckSides::Params& params
   std::vector<std::uint8_t> wrong(planes.primitives.size(), 0);
   context.parallel_chunks(wrong.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
     const PlanePrimitive& p = planes.primitives[i];
-    wrong[i] = !p.inliers.empty() && is_upright(p) && has_rooms_behind(planes, i, levels, all, params.inside) ? 1 : 0;
+    wrong[i] =
+        !p.inliers.empty() && stands_upright(p) && has_rooms_behind(planes, i, levels, all, params.inside) ? 1 : 0;
   });
   for (std::size_t i = 0; i < wrong.size(); ++i)
     if (wrong[i] != 0) turn(planes.primitives[i].plane);

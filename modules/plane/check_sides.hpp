@@ -14,9 +14,11 @@ namespace atrium::plane {
 /// - An upright plane is turned if, 15 cm behind at least `inside` of its places, there are a floor below and a ceiling
 ///   above, and before hardly any place there are, but another upright plane nearer than walls are thick: rooms have
 ///   both, the inside of a wall has neither.
+/// Floors and ceilings count up to 4 m below and above a place: walls of higher halls with racks right before them and
+/// rooms behind may be turned.
 ///
 /// The frame's z is up. Points, sizes and order of the primitives do not change. Cost: pairs of level planes, a pass
-/// over the points of upright planes for each level one that may be turned, and at most 64 places of each upright
+/// over the points of upright planes for each level one that may be turned, and at most 127 places of each upright
 /// plane. No random numbers.
 struct CheckSides {
   static constexpr std::string_view type = "plane.check_sides";

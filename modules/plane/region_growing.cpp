@@ -74,7 +74,7 @@ double noise_of(const VoxelGrid& grid, bool fine) {
   }
   if (fine) return ranked(residuals, residuals.size() / 2);
   const double around = ranked(residuals, residuals.size() / 4);
-  if (own.size() < flat.size() / 4) return around;
+  if (4 * own.size() < flat.size() || own.empty()) return around;
   const double median_alone = ranked(own, own.size() / 2);
   return around > far * median_alone ? alone * median_alone : around;
 }

@@ -57,8 +57,9 @@ struct RegionGrowing {
                                      "Edge of the voxels of dense scans, where voxel_size is 0."),
       param<&Params::distance>(
           metres, within(0, 10),
-          "Largest distance of a point from its plane. 0: 2.5 times the noise, which is the median residual around "
-          "flat voxels, but no less than min_distance."),
+          "Largest distance of a point from its plane. 0: 2.5 times the noise, but no less than min_distance. The "
+          "noise is the median residual around flat voxels; where these are coarse the lower quartile, or twice the "
+          "voxels' own median residual where the quartile is more than four times that."),
       param<&Params::min_distance>(
           metres, within(0, 10),
           "Least distance where `distance` is 0: what drift and unevenness take even where the noise is small."),

@@ -230,7 +230,8 @@ Side side_of(const PlanePrimitive& primitive, const SeenFrom& seen) {
   if (vote == 0) {
     vote = seen.by_free_space(primitive);
     if (std::abs(vote) < clear) vote += seen.by_rim(primitive);
-    if (std::abs(vote) >= undecided && seen.is_solid(primitive, vote < 0 ? -1 : 1)) vote = -vote;
+    // Normals that look the same way speak against a wall's inside.
+    if (std::abs(vote) >= undecided && normals * vote <= 0 && seen.is_solid(primitive, vote < 0 ? -1 : 1)) vote = -vote;
     side.by = Evidence::free_space;
     if (std::abs(vote) < undecided && normals != 0) {
       vote = normals;

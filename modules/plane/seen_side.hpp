@@ -21,10 +21,13 @@ struct SeenSides {
 ///    since the outside of a building is not seen. So a room is before a wall even where it is wide, and the 12 cm to
 ///    its other face are not. And the surface's rim: where its points end, rays along it at 20 cm meet a floor, a
 ///    ceiling, another wall or furniture on the side of the room, and nothing in a cavity between two rooms. The shares
-///    of both are added.
+///    of both are added. But a surface that has another one 12 to 65 cm before most of its places, straight on, and
+///    nothing on its other side is the outer face of a wall, a roof or a slab, as models and scans from outside have
+///    them: it looks outwards, unless the cloud's normals say otherwise. (Closets that deep at the outside of a
+///    building look the same.)
 /// 3. The cloud's normals (their axes never, only their signs), where these say nothing.
 ///
-/// Cost: at most 64 places × 50 rays of 20 m for each plane; a grid over the points. Deterministic. The planes' sizes,
+/// Cost: at most 127 places × 65 rays of 20 m for each plane; a grid over the points. Deterministic. The planes' sizes,
 /// inliers and order do not change.
 SeenSides turn_to_seen_sides(PlanePrimitives& planes, const Context& context);
 

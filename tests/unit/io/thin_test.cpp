@@ -77,10 +77,8 @@ TEST_F(Thin, GivesWhatTheVoxelGridGives) {
 // Rows of text are parsed block by block where they are thinned, and all at once where they are not.
 TEST_F(Thin, TextOfManyBlocksGivesWhatTheVoxelGridGives) {
   const Cloud cloud = room(60'000);
-  const std::map<std::string, std::string> names{{"bytes", "x y z n r g b"},
-                                                 {"shares", "x y z n r g b"},
-                                                 {"wide", "x y z n r g b"},
-                                                 {"none", "x y z n"}};
+  const std::map<std::string, std::string> names{
+      {"bytes", "x y z n r g b"}, {"shares", "x y z n r g b"}, {"wide", "x y z n r g b"}, {"none", "x y z n"}};
   for (const auto& [kind, header] : names) {
     SCOPED_TRACE(kind);
     std::string text = "# points\n" + header + "\n";
@@ -102,6 +100,25 @@ TEST_F(Thin, TextOfManyBlocksGivesWhatTheVoxelGridGives) {
     file("a.txt", text + "1 2 3\n");
     EXPECT_CONTAINS(error_of([&] { read("a.txt", 0.1); }), "a.txt:60003: 3 values instead of");
   }
+}
+
+TEST_F(Thin, OfSeveralBadLinesOfTextTheFirstIsNamed) {
+  std::string text;
+  for (int i = 0; i < 400'000; ++i) {
+    const bool bad = i == 50'000 || i == 350'000;
+    text += bad ? "1 2\n" : fmt::format("{:.3f} {:.3f} 0.123\n", i * 1e-5, (i % 77) * 0.01);
+  }
+  EXPECT_GT(text.size(), std::size_t{4} << 20U) << "some blocks";
+  file("a.xyz", text);
+  for (int i = 0; i < 5; ++i)
+    EXPECT_CONTAINS(error_of([&] { read("a.xyz", 0.1); }), "a.xyz:50001: 2 values instead of");
+}
+
+TEST_F(Thin, TextWithoutAFinitePlaceIsRefused) {
+  std::string text;
+  for (int i = 0; i < 300'000; ++i) text += "nan nan nan\n";
+  file("a.xyz", text);
+  EXPECT_CONTAINS(error_of([&] { read("a.xyz", 0.1); }), "a.xyz");
 }
 
 /// A floor of 50 x 50 voxels of 2 cm with 20 points each, and single points over it, two voxels apart at least.

@@ -144,6 +144,21 @@ TEST(Layout, StoreysLieOverEachOther) {
   }
 }
 
+// Two rooms with suspended ceilings under a slab that was seen over both and over the wall between them.
+TEST(Layout, TheSlabOverSuspendedCeilingsIsNoCeiling) {
+  for (const double spacing : {0.05, 0.12}) {
+    Scene scene;
+    scene.spacing = spacing;
+    add_box(scene, 0, 0, 5, 4, 0, 2.7);
+    add_box(scene, 5.12, 0, 9, 4, 0, 2.5);
+    scene.ceiling(0, 0, 9, 4, 3.3);
+    const auto layout = laid_out(scene.planes());
+    ASSERT_EQ(layout.building.rooms.size(), 2U) << spacing;
+    EXPECT_NEAR(layout.building.rooms[0].height, 2.7, 0.01) << spacing;
+    EXPECT_NEAR(layout.building.rooms[1].height, 2.5, 0.01) << spacing;
+  }
+}
+
 TEST(Layout, WallsThroughTwoStoreys) {
   Scene scene;
   for (int s = 0; s < 2; ++s) scene.floor(0, 0, 5, 4, 2.8 * s).ceiling(0, 0, 5, 4, 2.8 * s + 2.5);

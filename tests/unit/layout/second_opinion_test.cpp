@@ -33,6 +33,18 @@ TEST(SecondOpinion, ARoomThatIsTwoIsToldOf) {
   EXPECT_EQ(parted[1].parts, 0U);
 }
 
+TEST(SecondOpinion, ACorridorAroundACoreIsNotTheHallOfBoth) {
+  Building ring = boxes({{0, 0, 20, 10, 0, 2.5}, {2, 1, 18, 9, 0, 2.5}});
+  for (const auto& p :
+       {Eigen::Vector3d(2, 1, 0), Eigen::Vector3d(2, 9, 0), Eigen::Vector3d(18, 9, 0), Eigen::Vector3d(18, 1, 0)}) {
+    if (ring.rooms[0].holes.empty()) ring.rooms[0].holes.emplace_back();
+    ring.rooms[0].holes[0].push_back(p);
+  }
+  const auto opinions = second_opinions(ring, boxes({{0, 0, 20, 10, 0, 2.5}}));
+  EXPECT_NEAR(opinions[0].shared, 72.0 / 200, 1e-9);
+  EXPECT_NEAR(opinions[1].shared, 128.0 / 200, 1e-9);
+}
+
 TEST(SecondOpinion, RoomsOnOtherStoreysAndNoRoomsSayNothing) {
   const auto below = boxes({{0, 0, 4, 3, 0, 2.5}}), above = boxes({{0, 0, 4, 3, 2.8, 5.3}});
   EXPECT_EQ(second_opinions(below, above)[0].area, 0);

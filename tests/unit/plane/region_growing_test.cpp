@@ -153,6 +153,25 @@ TEST(PlaneRegionGrowing, AFarOutlierChangesNothing) {
   EXPECT_EQ(grow(cloud).primitives.size(), 6U);
 }
 
+// Both faces of a wall of 12 cm are in one neighbourhood where points are 10 cm apart; in most voxels only one is.
+TEST(PlaneRegionGrowing, ThinWallsInASparseCloudAreNoNoise) {
+  auto faces = box_faces({0, 0, 0}, {4, 4, 2.5}, true);
+  const auto more = box_faces({4.12, 0, 0}, {8, 4, 2.5}, true);
+  faces.insert(faces.end(), more.begin(), more.end());
+  const auto matches = match_faces(faces, grow(sample(faces, {.points = 14000, .noise = 0.002, .normals = false})));
+  EXPECT_EQ(matches.size(), faces.size());
+  for (const auto& match : matches) EXPECT_LT(std::abs(match.offset), 0.01) << "face " << match.face;
+}
+
+TEST(PlaneRegionGrowing, AHandfulOfPointsIsNoPlane) {
+  Cloud cloud;
+  for (const auto& p :
+       {Eigen::Vector3f(.01F, .01F, .05F), Eigen::Vector3f(.29F, .01F, .05F), Eigen::Vector3f(.01F, .29F, .05F),
+        Eigen::Vector3f(.29F, .29F, .05F), Eigen::Vector3f(.15F, .15F, .05F)})
+    cloud.points.push_back(p);
+  EXPECT_TRUE(grow(cloud).primitives.empty());
+}
+
 TEST(PlaneRegionGrowing, SaysWhatIsMissing) {
   Cloud cloud;
   EXPECT_THROW(grow(cloud), Error);
