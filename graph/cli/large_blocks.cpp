@@ -1,7 +1,14 @@
 // Large blocks of memory are asked for in huge pages (2 MiB), where the system gives such to those who ask ("madvise",
 // /sys/kernel/mm/transparent_hugepage/enabled). Else every 4 KiB of a scan's columns cost a page fault, together more
-// time than reading the file does. Sanitizers have operators of their own.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// time than reading the file does. Sanitizers have operators of their own, and say so in one of two ways.
+#ifdef __has_feature
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define ATRIUM_SANITIZED
+#endif
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define ATRIUM_SANITIZED
+#endif
+#ifndef ATRIUM_SANITIZED
 
 #include <sys/mman.h>
 
