@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "modules/geometry/quantile.hpp"
+#include "modules/layout/wall_levels.hpp"
 
 namespace atrium::layout {
 namespace {
@@ -18,119 +18,6 @@ constexpr double narrowest_pane = 0.5, widest_pane = 2.4;  // metres; of windows
 constexpr double lowest_sill = 0.4, highest_sill = 1.3;    // metres over the foot
 constexpr double lowest_head = 1.7, highest_pane = 2.6;    // metres over the foot
 constexpr double least_pane_step = 0.03;                   // metres
-
-struct WallLevels {
-  double pixel = 0;
-  int width = 0, height = 0;
-  std::vector<float> squares;  ///< how far before the face its surface lies, metres; NaN without points
-
-  float at(int x, int y) const {
-    return squares[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
-  }
-};
-
-/// Squares x0 ≤ x < x1, y0 ≤ y < y1.
-struct LevelBlock {
-  int x0, x1, y0, y1;
-  double area() const { return static_cast<double>(std::max(0, x1 - x0)) * std::max(0, y1 - y0); }
-  /// The common part, of the larger of both.
-  double shared(const LevelBlock& other) const {
-    const LevelBlock both{std::max(x0, other.x0), std::min(x1, other.x1), std::max(y0, other.y0),
-                          std::min(y1, other.y1)};
-    return both.area() / std::max(area(), other.area());
-  }
-  bool touches(const LevelBlock& other) const {
-    return x0 <= other.x1 && other.x0 <= x1 && y0 <= other.y1 && other.y0 <= y1;
-  }
-};
-
-using SquarePoints = std::vector<std::pair<std::uint32_t, float>>;  // a point's square, and how far before the face
-
-/// The middle of the foremost surface of a square, of its points from back to front. What shows behind it was seen from
-/// the other side of the wall.
-float front_level(SquarePoints::const_iterator begin, SquarePoints::const_iterator end) {
-  constexpr float thickness = 0.03F;          // metres: of a surface's points
-  constexpr std::ptrdiff_t few = 2, all = 7;  // a surface has at least two points, and a seventh of them all
-  const std::ptrdiff_t enough = std::max(few, (end - begin) / all);
-  for (auto front = end; front - begin >= enough; --front) {
-    auto back = front - 1;
-    while (back != begin && (front - 1)->second - (back - 1)->second <= thickness) --back;
-    if (front - back >= enough) return (back + (front - back) / 2)->second;
-  }
-  return (begin + (end - begin) / 2)->second;
-}
-
-WallLevels levels_of(const FaceEvidence& evidence) {
-  constexpr double least = 0.05, most = 0.1;  // metres
-  constexpr double points_per_square = 3;
-  const Eigen::AlignedBox2d& box = evidence.mask.box();
-  WallLevels levels;
-  const double spacing = std::sqrt(box.volume() / std::max<double>(1, static_cast<double>(evidence.near.size())));
-  levels.pixel = std::max(least, std::sqrt(points_per_square) * spacing);
-  if (levels.pixel > most) return levels;
-  levels.width = std::max(1, static_cast<int>(std::ceil(box.sizes().x() / levels.pixel)));
-  levels.height = std::max(1, static_cast<int>(std::ceil(box.sizes().y() / levels.pixel)));
-  const auto squares = static_cast<std::size_t>(levels.width) * static_cast<std::size_t>(levels.height);
-  SquarePoints points;
-  points.reserve(evidence.near.size());
-  for (const auto& p : evidence.near) {
-    const int x = static_cast<int>((p.x() - box.min().x()) / levels.pixel);
-    const int y = static_cast<int>((p.y() - box.min().y()) / levels.pixel);
-    if (x < 0 || y < 0 || x >= levels.width || y >= levels.height) continue;
-    points.emplace_back(
-        static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(levels.width) + static_cast<std::uint32_t>(x),
-        p.z());
-  }
-  std::sort(points.begin(), points.end());
-  levels.squares.assign(squares, std::numeric_limits<float>::quiet_NaN());
-  for (std::size_t i = 0, end = 0; i < points.size(); i = end) {
-    for (end = i; end < points.size() && points[end].first == points[i].first;) ++end;
-    levels.squares[points[i].first] =
-        front_level(points.begin() + static_cast<std::ptrdiff_t>(i), points.begin() + static_cast<std::ptrdiff_t>(end));
-  }
-  return levels;
-}
-
-struct Spread {
-  double count = 0, sum = 0, squares = 0;
-  double mean() const { return sum / count; }
-  double scatter() const { return squares - sum * sum / count; }
-  Spread& operator+=(const Spread& other) {
-    count += other.count;
-    sum += other.sum;
-    squares += other.squares;
-    return *this;
-  }
-};
-
-/// Sums over all squares below and left of a corner.
-class LevelSums {
- public:
-  explicit LevelSums(const WallLevels& levels) : stride_(static_cast<std::size_t>(levels.width) + 1) {
-    sums_.resize(stride_ * (static_cast<std::size_t>(levels.height) + 1));
-    for (int y = 0; y < levels.height; ++y) {
-      Spread row;
-      for (int x = 0; x < levels.width; ++x) {
-        if (const double d = levels.at(x, y); !std::isnan(d)) row += {1, d, d * d};
-        Spread all = at(x + 1, y);
-        all += row;
-        sums_[index(x + 1, y + 1)] = all;
-      }
-    }
-  }
-  Spread in(const LevelBlock& b) const {
-    const Spread &a = at(b.x1, b.y1), &left = at(b.x0, b.y1), &below = at(b.x1, b.y0), &both = at(b.x0, b.y0);
-    return {a.count - left.count - below.count + both.count, a.sum - left.sum - below.sum + both.sum,
-            a.squares - left.squares - below.squares + both.squares};
-  }
-
- private:
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * stride_ + static_cast<std::size_t>(x); }
-  const Spread& at(int x, int y) const { return sums_[index(x, y)]; }
-
-  std::size_t stride_;
-  std::vector<Spread> sums_;
-};
 
 struct LeafRectangle {
   LevelBlock leaf;

@@ -14,6 +14,7 @@ namespace atrium::plane {
 /// - An upright plane is turned if, 15 cm behind at least `inside` of its places, there are a floor below and a ceiling
 ///   above, and before hardly any place there are, but another upright plane nearer than walls are thick: rooms have
 ///   both, the inside of a wall has neither.
+///
 /// Floors and ceilings count up to 4 m below and above a place: walls of higher halls with racks right before them and
 /// rooms behind may be turned.
 ///

@@ -42,7 +42,7 @@ double location(std::vector<double>& values) {
   double at = (quarter.front() + quarter.back()) / 2;
   if (!(width > 0)) return at;
   constexpr int most_steps = 50;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int round = 0; round < most_steps; ++round) {
     double sum = 0, weights = 0;
     for (const double value : values) {
       const double u = (value - at) / width;

@@ -391,22 +391,5 @@ TEST(Confidence, DoubtfulRoomsAreWarnedOfAndNamedWhereTheyAre) {
   EXPECT_EQ(result.building.origin, Eigen::Vector3d::Zero());
 }
 
-TEST(Confidence, RoomsThatAreOthersInAnotherWayAreDoubtful) {
-  Structure structure;
-  structure.primitives = std::make_shared<const PlanePrimitives>(box_room().planes());
-  const auto with = [&](const std::vector<double>& ends) {
-    BoxBuilding second;
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) second.room(ends[i], 0, ends[i + 1], 3);
-    Context context;
-    return Confidence::run({input(box()), input(structure), {}, input(second.building)}, {}, context).building;
-  };
-  EXPECT_NEAR(with({0, 4}).rooms[0].confidence, 1, 1e-9);
-  const Building parted = with({0, 2, 4});
-  EXPECT_NEAR(parted.rooms[0].confidence, 0.6, 1e-9);
-  ASSERT_FALSE(parted.rooms[0].doubts.empty());
-  EXPECT_EQ(parted.rooms[0].doubts.back(), "found in another way, it is 2 rooms, the best of 6.0 m2");
-  EXPECT_NEAR(with({}).rooms[0].confidence, 1, 1e-9) << "no rooms are no opinion";
-}
-
 }  // namespace
 }  // namespace atrium::layout::confidence_test

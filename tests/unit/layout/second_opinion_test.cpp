@@ -4,7 +4,9 @@
 
 #include <array>
 
+#include "modules/layout/confidence.hpp"
 #include "tests/support/box_building.hpp"
+#include "tests/support/rooms.hpp"
 
 namespace atrium::layout::second_opinion_test {
 namespace {
@@ -50,6 +52,25 @@ TEST(SecondOpinion, RoomsOnOtherStoreysAndNoRoomsSayNothing) {
   EXPECT_EQ(second_opinions(below, above)[0].area, 0);
   EXPECT_EQ(second_opinions(below, Building{})[0].area, 0);
   EXPECT_TRUE(second_opinions(Building{}, below).empty());
+}
+
+TEST(SecondOpinion, RoomsThatAreOthersInAnotherWayAreDoubtful) {
+  Structure structure;
+  structure.primitives = std::make_shared<const PlanePrimitives>(atrium::test::box_room().planes());
+  const auto with = [&](const std::vector<double>& ends) {
+    atrium::test::BoxBuilding second;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) second.room(ends[i], 0, ends[i + 1], 3);
+    Context context;
+    return Confidence::run({input(boxes({{0, 0, 4, 3, 0, 2.5}})), input(structure), {}, input(second.building)}, {},
+                           context)
+        .building;
+  };
+  EXPECT_NEAR(with({0, 4}).rooms[0].confidence, 1, 1e-9);
+  const Building parted = with({0, 2, 4});
+  EXPECT_NEAR(parted.rooms[0].confidence, 0.6, 1e-9);
+  ASSERT_FALSE(parted.rooms[0].doubts.empty());
+  EXPECT_EQ(parted.rooms[0].doubts.back(), "found in another way, it is 2 rooms, the best of 6.0 m2");
+  EXPECT_NEAR(with({}).rooms[0].confidence, 1, 1e-9) << "no rooms are no opinion";
 }
 
 }  // namespace
